@@ -1,0 +1,41 @@
+# One library a folder. Its sources are the folder's *.cpp, so that a new implementation needs no edit here.
+
+add_library(radiosity_options INTERFACE)
+target_compile_options(radiosity_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -Werror -fno-math-errno -ffp-contract=off)
+if(RADIOSITY_SANITIZE)
+  target_compile_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE} -fno-omit-frame-pointer
+                         -fno-sanitize-recover=all)
+  target_link_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE})
+endif()
+
+# radiosity_library(NAME PUBLIC targets... PRIVATE targets...)
+function(radiosity_library name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  set(target radiosity_${name})
+  add_library(${target} ${sources})
+  add_library(radiosity::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/radiosity>)
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:radiosity_options>)
+  install(TARGETS ${target} EXPORT radiosity ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/radiosity/${name}
+          FILES_MATCHING PATTERN "*.hpp")
+endfunction()
+
+# radiosity_test(NAME targets...): every *.cpp of the current folder in one GoogleTest program.
+function(radiosity_test name)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  set(target radiosity_${name}_tests)
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE ${ARGN} GTest::gtest_main radiosity_options)
+  target_compile_definitions(${target} PRIVATE RADIOSITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${name} TIMEOUT 600)
+endfunction()

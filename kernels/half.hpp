@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+namespace radiosity {
+
+/// IEEE 754 binary16 as it is stored; arithmetic happens in float32.
+struct Half {
+  std::uint16_t bits = 0;
+};
+
+/// Round to nearest even; overflow gives infinity.
+Half to_half(float value);
+float to_float(Half value);
+
+}  // namespace radiosity

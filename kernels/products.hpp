@@ -1,0 +1,43 @@
+#pragma once
+
+#include "kernels/csr_matrix.hpp"
+#include "kernels/instruction_set.hpp"
+#include "kernels/row_major_matrix.hpp"
+#include "kernels/symmetric_tiles.hpp"
+
+namespace radiosity {
+
+using ConstFieldRef = Eigen::Ref<const Eigen::MatrixXd>;
+using FieldRef = Eigen::Ref<Eigen::MatrixXd>;
+
+/// Y = K X for X and Y of n x c, any c >= 0; Y is written, never read, and does not alias X.
+/// float and Half tiles multiply in float32 within a tile and add up in double: componentwise error <= 2 n u |K| |X|
+/// with u the unit roundoff of the stored type. The result is the same, bit for bit, for any number of threads.
+void multiply(const SymmetricTiles<double>& K, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply(const SymmetricTiles<float>& K, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+
+/// Y = M X and Y = M' X for a full matrix stored by rows, m x n. Same promises.
+void multiply(const RowMajorMatrix<double>& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply(const RowMajorMatrix<float>& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply(const RowMajorMatrix<Half>& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const RowMajorMatrix<double>& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const RowMajorMatrix<float>& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const RowMajorMatrix<Half>& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
+
+/// Y = M X for a sparse matrix. Same promises.
+void multiply(const CsrMatrix<double>& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply(const CsrMatrix<float>& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+
+}  // namespace radiosity

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "form_factors/form_factors.hpp"
+#include "operators/linear_operator.hpp"
+#include "operators/spec.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace radiosity {
+
+struct OperatorEntry {
+  std::string name;
+  std::string summary;   ///< one line for --help
+  std::string defaults;  ///< keys with their defaults, as a spec: "dense:f64"
+  std::function<std::unique_ptr<LinearOperator>(Spec&, const FormFactors&)> make;
+};
+
+/// The operators a program knows, as a value: assembled from lists (cpu_operators(), a user's own) and passed on.
+class OperatorRegistry {
+ public:
+  OperatorRegistry() = default;
+  explicit OperatorRegistry(std::vector<OperatorEntry> entries);
+
+  /// Throws UsageError if the name is taken.
+  void add(OperatorEntry entry);
+
+  const std::vector<OperatorEntry>& entries() const { return entries_; }
+
+  /// Parses and builds. Throws UsageError for unknown names and keys, listing the known ones.
+  std::unique_ptr<LinearOperator> make(const std::string& spec, const FormFactors& form_factors) const;
+
+ private:
+  std::vector<OperatorEntry> entries_;
+};
+
+/// The operators of this library that run on the CPU.
+OperatorRegistry cpu_operators();
+
+}  // namespace radiosity

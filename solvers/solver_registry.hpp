@@ -1,0 +1,47 @@
+#pragma once
+
+#include "operators/spec.hpp"
+#include "solvers/solver.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace radiosity {
+
+/// What a solver is made for. The operator outlives the solver; `root_area` is A^{1/2}, n.
+struct SolverProblem {
+  const LinearOperator& transport;
+  Eigen::VectorXd root_area;
+  SolverOptions options;
+};
+
+struct SolverEntry {
+  std::string name;
+  std::string summary;
+  std::string defaults;  ///< keys with their defaults, as a spec
+  std::function<std::unique_ptr<Solver>(Spec&, const SolverProblem&)> make;
+};
+
+/// The solvers a program knows, as a value.
+class SolverRegistry {
+ public:
+  SolverRegistry() = default;
+  explicit SolverRegistry(std::vector<SolverEntry> entries);
+
+  /// Throws UsageError if the name is taken.
+  void add(SolverEntry entry);
+  const std::vector<SolverEntry>& entries() const { return entries_; }
+
+  /// Parses and builds; an empty spec means cg where the operator is symmetric, else gmres.
+  /// Throws UsageError for unknown names and keys, and for a solver that the operator does not allow (cg on an unsymmetric one).
+  std::unique_ptr<Solver> make(const std::string& spec, const SolverProblem& problem) const;
+
+ private:
+  std::vector<SolverEntry> entries_;
+};
+
+SolverRegistry cpu_solvers();
+
+}  // namespace radiosity
