@@ -1,0 +1,49 @@
+#pragma once
+
+#include "kernels/instruction_set.hpp"
+
+namespace radiosity {
+
+/// Flat arrays over patches; the loops over them are compiled once for each instruction set, so nothing but plain pointers
+/// may appear here. Without fused multiply-add (-ffp-contract=off) all of them give the same bits.
+struct PatchArrays {
+  const double* corner_x[4];
+  const double* corner_y[4];
+  const double* corner_z[4];  ///< a triangle repeats its last corner
+  const double* normal_x;
+  const double* normal_y;
+  const double* normal_z;
+  const double* offset;
+  const double* center_x;
+  const double* center_y;
+  const double* center_z;
+};
+
+/// Quadrature points: entry q * stride + patch. Weights include the area.
+struct PointArrays {
+  const double* x;
+  const double* y;
+  const double* z;
+  const double* weight;
+  int stride;
+};
+
+/// Room for a cluster.
+struct PairHeights {
+  static constexpr int capacity = 64;
+  double other_low[capacity];   ///< lowest corner of j above the plane of i
+  double other_high[capacity];
+  double own_low[capacity];     ///< lowest corner of i above the plane of j
+  double own_high[capacity];
+  double distance_squared[capacity];
+};
+
+struct ExchangeLoops {
+  void (*classify)(const PatchArrays&, int i, int begin, int end, PairHeights&);
+  void (*exchange)(const PatchArrays&, const PointArrays&, int own_points, int other_points, int i, int begin, int end,
+                   double* result);
+};
+
+ExchangeLoops exchange_loops(InstructionSet instructions);
+
+}  // namespace radiosity
