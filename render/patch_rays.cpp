@@ -1,9 +1,11 @@
 #include "render/patch_rays.hpp"
 
 #include "foundation/error.hpp"
+#include "render/bounding_box.hpp"
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -73,7 +75,8 @@ struct PatchRays::Implementation {
     return scaled(point) + scaled_lift * mesh.normal.col(patch);
   }
 
-  /// The first front between `near` and `far` (scaled units along the unit vector `direction`), -1 if there is none.
+  /// The first front between `near` and `far` (scaled units along the unit vector `direction`), -1 if there
+  /// is none.
   Index front_between(const Vector3& scaled_origin, const Vector3& direction, float near, float far) const;
   PatchHit hit_on(Index patch, bool front, const Vector3& scaled_origin, const Vector3& direction) const;
 
@@ -92,26 +95,20 @@ PatchRays::Implementation::Implementation(const PatchMesh& patches) : mesh(patch
     fail("the ray tracing library could not be started (Embree error {})",
          static_cast<int>(rtcGetDeviceError(nullptr)));
   scene = rtcNewScene(device);
-  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                     RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneFlags(
+      scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   add_geometry();
   rtcCommitScene(scene);
   if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-    fail("the ray tracing library could not take the scene's {} patches (Embree error {})", mesh.patch_count(),
-         static_cast<int>(error));
+    fail("the ray tracing library could not take the scene's {} patches (Embree error {})",
+         mesh.patch_count(), static_cast<int>(error));
 }
 
 void PatchRays::Implementation::fit_into_unit_ball() {
   if (mesh.patches.empty()) return;
-  Vector3 low = mesh.corner(0, 0);
-  Vector3 high = low;
-  for (Index i = 0; i < mesh.patch_count(); ++i)
-    for (int k = 0; k < mesh.patches[static_cast<std::size_t>(i)].corner_count; ++k) {
-      low = low.cwiseMin(mesh.corner(i, k));
-      high = high.cwiseMax(mesh.corner(i, k));
-    }
-  centre = 0.5 * (low + high);
-  scale = 2 / (high - low).norm();
+  const Eigen::AlignedBox3d box = bounding_box(mesh);
+  centre = box.center();
+  scale = 2 / box.diagonal().norm();
 }
 
 void PatchRays::Implementation::add_geometry() {
@@ -130,9 +127,8 @@ void PatchRays::Implementation::add_geometry() {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
-  auto* indices =
-      static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                     3 * sizeof(unsigned), triangles.size()));
+  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
   if (vertices && indices) {
     for (const Vector3& vertex : mesh.vertices) {
       const Vector3 position = scaled(vertex);
@@ -146,8 +142,8 @@ void PatchRays::Implementation::add_geometry() {
   rtcReleaseGeometry(geometry);
 }
 
-Index PatchRays::Implementation::front_between(const Vector3& scaled_origin, const Vector3& direction, float near,
-                                               float far) const {
+Index PatchRays::Implementation::front_between(const Vector3& scaled_origin, const Vector3& direction,
+                                               float near, float far) const {
   FrontsOnly fronts{};
   rtcInitIntersectContext(&fronts.context);
   fronts.context.filter = reject_backs;
@@ -170,7 +166,9 @@ PatchHit PatchRays::Implementation::hit_on(Index patch, bool front, const Vector
 PatchRays::PatchRays(const PatchMesh& mesh) : implementation_(std::make_unique<Implementation>(mesh)) {}
 PatchRays::~PatchRays() = default;
 
-double PatchRays::lift() const { return scaled_lift / implementation_->scale; }
+double PatchRays::lift() const {
+  return scaled_lift / implementation_->scale;
+}
 
 PatchHit PatchRays::from_patch(Index patch, const Vector3& point, const Vector3& direction) const {
   const Implementation& self = *implementation_;

@@ -33,7 +33,8 @@ Vector3 cosine_direction(const Vector3& normal, double u, double v) {
   const double angle = 2 * std::numbers::pi * v;
   const Vector3 tangent = normal.unitOrthogonal();
   const Vector3 bitangent = normal.cross(tangent);
-  return (radius * std::cos(angle) * tangent + radius * std::sin(angle) * bitangent + std::sqrt(1 - u) * normal)
+  return (radius * std::cos(angle) * tangent + radius * std::sin(angle) * bitangent +
+          std::sqrt(1 - u) * normal)
       .normalized();
 }
 

@@ -23,7 +23,8 @@ class EmitterTable {
   /// The emitter at u in [0, 1).
   Index pick(double u) const;
 
-  /// Density, per unit of area, with which pick() followed by a uniform point yields a point of `patch`; 0 where it is dark.
+  /// Density, per unit of area, with which pick() followed by a uniform point yields a point of `patch`; 0
+  /// where it is dark.
   double density(Index patch) const { return density_[patch]; }
 
  private:

@@ -15,8 +15,8 @@
 namespace radiosity {
 namespace {
 
-/// Paths of one batch are stratified in position and direction, strata x strata each; batches are independent of each
-/// other, so that their spread gives an honest standard error.
+/// Paths of one batch are stratified in position and direction, strata x strata each; batches are independent
+/// of each other, so that their spread gives an honest standard error.
 constexpr int strata = 4;
 constexpr int batch_paths = strata * strata;
 
@@ -44,14 +44,18 @@ struct Estimate {
 class Tracer {
  public:
   Tracer(const PatchMesh& mesh, LightSampling lights)
-      : mesh_(mesh), rays_(mesh), emitters_(mesh), combined_(lights == LightSampling::combined && !emitters_.empty()) {}
+      : mesh_(mesh),
+        rays_(mesh),
+        emitters_(mesh),
+        combined_(lights == LightSampling::combined && !emitters_.empty()) {}
 
   /// Mean over one batch of paths that start on `patch`.
   Color batch(Index patch, RandomStream& random, Counts& counts) const;
 
  private:
   Color field(const Eigen::MatrixXd& values, Index patch) const {
-    return values.cols() == 3 ? Color(values.row(patch).transpose().array()) : Color::Constant(values(patch, 0));
+    return values.cols() == 3 ? Color(values.row(patch).transpose().array())
+                              : Color::Constant(values(patch, 0));
   }
 
   /// Irradiance gathered along one path; (u, v) chooses its first direction.
@@ -60,7 +64,8 @@ class Tracer {
   /// The weighted light from one random point of an emitter.
   Color emitter_sample(Index patch, const Vector3& point, RandomStream& random, Counts& counts) const;
 
-  /// Solid-angle density with which emitter_sample chooses the direction from `point` to `target` on `emitter`.
+  /// Solid-angle density with which emitter_sample chooses the direction from `point` to `target` on
+  /// `emitter`.
   double emitter_density(Index emitter, const Vector3& point, const Vector3& target) const {
     const Vector3 apart = target - point;
     const double cosine = -apart.normalized().dot(mesh_.normal.col(emitter));
@@ -93,7 +98,8 @@ Color Tracer::batch(Index patch, RandomStream& random, Counts& counts) const {
   return sum / batch_paths;
 }
 
-Color Tracer::path(Index patch, Vector3 point, double u, double v, RandomStream& random, Counts& counts) const {
+Color Tracer::path(Index patch, Vector3 point, double u, double v, RandomStream& random,
+                   Counts& counts) const {
   Color gathered = Color::Zero();
   Color throughput = Color::Ones();
   while (true) {
@@ -141,7 +147,8 @@ Color Tracer::emitter_sample(Index patch, const Vector3& point, RandomStream& ra
 }
 
 void check(const PatchMesh& mesh, const PathTracingOptions& options) {
-  if (options.paths <= 0) fail<UsageError>("{} paths from each patch are too few; at least 1 is needed", options.paths);
+  if (options.paths <= 0)
+    fail<UsageError>("{} paths from each patch are too few; at least 1 is needed", options.paths);
   if (!(options.standard_error >= 0) || !(options.seconds >= 0))
     fail<UsageError>("the path tracer's standard error ({}) and seconds ({}) must not be negative",
                      options.standard_error, options.seconds);
@@ -152,8 +159,9 @@ void check(const PatchMesh& mesh, const PathTracingOptions& options) {
                      mesh.emission.cols(), mesh.patch_count(), mesh.channels());
   for (Index i = 0; i < mesh.patch_count(); ++i)
     if (!(mesh.reflectance.row(i).maxCoeff() < 1))
-      fail<UsageError>("patch {} has reflectance {}: paths between such patches need not end; limit it below 1", i,
-                       mesh.reflectance.row(i).maxCoeff());
+      fail<UsageError>(
+          "patch {} has reflectance {}: paths between such patches need not end; limit it below 1", i,
+          mesh.reflectance.row(i).maxCoeff());
 }
 
 }  // namespace
@@ -170,7 +178,8 @@ PathTracedIrradiance trace_paths(const PatchMesh& mesh, const PathTracingOptions
   const Stopwatch stopwatch;
   const Tracer tracer(mesh, options.lights);
   const auto n = static_cast<std::size_t>(mesh.patch_count());
-  const auto batches = static_cast<std::uint64_t>(std::max(4, (options.paths + batch_paths - 1) / batch_paths));
+  const auto batches =
+      static_cast<std::uint64_t>(std::max(4, (options.paths + batch_paths - 1) / batch_paths));
   std::vector<Estimate> estimates(n);
   std::vector<Counts> counts(n);
   PathTracedIrradiance result;
@@ -188,11 +197,12 @@ PathTracedIrradiance trace_paths(const PatchMesh& mesh, const PathTracingOptions
     for (std::size_t i = 0; i < n; ++i) {
       const auto row = static_cast<Index>(i);
       result.irradiance.row(row) = estimates[i].mean.head(mesh.channels()).matrix().transpose();
-      result.standard_error.row(row) = estimates[i].standard_error().head(mesh.channels()).matrix().transpose();
+      result.standard_error.row(row) =
+          estimates[i].standard_error().head(mesh.channels()).matrix().transpose();
     }
     result.paths += batches * batch_paths;
-    const bool exact_enough = options.standard_error > 0 &&
-                              result.relative_standard_error(mesh.area) <= options.standard_error;
+    const bool exact_enough =
+        options.standard_error > 0 && result.relative_standard_error(mesh.area) <= options.standard_error;
     const bool out_of_time = options.seconds > 0 && stopwatch.seconds() >= options.seconds;
     if (exact_enough || out_of_time || (options.standard_error == 0 && options.seconds == 0)) break;
   }
