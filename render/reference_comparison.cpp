@@ -1,0 +1,76 @@
+#include "render/reference_comparison.hpp"
+
+#include "foundation/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radiosity {
+namespace {
+
+/// Sums over patches from which means and their standard errors follow.
+struct Sums {
+  double area = 0;
+  double reference = 0;   // sum of A rho H over channels
+  double difference = 0;  // sum of A (B - E - rho H)
+  Eigen::RowVectorXd variance;
+
+  explicit Sums(Index channels) : variance(Eigen::RowVectorXd::Zero(channels)) {}
+  double standard_error() const { return variance.cwiseSqrt().sum(); }
+};
+
+}  // namespace
+
+ReferenceComparison compare_with_reference(const PatchMesh& mesh, const Eigen::MatrixXd& B,
+                                           const PathTracedIrradiance& reference) {
+  const Index channels = mesh.channels();
+  if (B.rows() != mesh.patch_count() || B.cols() != channels || reference.irradiance.rows() != B.rows() ||
+      reference.irradiance.cols() != B.cols())
+    fail<UsageError>(
+        "a radiosity of {} x {} and a reference of {} x {} cannot be compared; both must be {} x {}",
+        B.rows(), B.cols(), reference.irradiance.rows(), reference.irradiance.cols(), mesh.patch_count(),
+        channels);
+  const Eigen::MatrixXd reflected = mesh.reflectance.cwiseProduct(reference.irradiance);
+  const Eigen::MatrixXd noise = mesh.reflectance.cwiseProduct(reference.standard_error);
+  const Eigen::MatrixXd difference = B - mesh.emission - reflected;
+
+  int group_count = mesh.scene ? static_cast<int>(mesh.scene->groups.size()) : 0;
+  for (const Patch& patch : mesh.patches) group_count = std::max(group_count, patch.group + 1);
+  Sums whole(channels);
+  std::vector<Sums> groups(static_cast<std::size_t>(group_count), Sums(channels));
+  for (Index i = 0; i < mesh.patch_count(); ++i) {
+    const auto group = static_cast<std::size_t>(mesh.patches[static_cast<std::size_t>(i)].group);
+    for (Sums* sums : {&whole, &groups[group]}) {
+      sums->area += mesh.area[i];
+      sums->reference += mesh.area[i] * reflected.row(i).sum();
+      sums->difference += mesh.area[i] * difference.row(i).sum();
+      sums->variance += (mesh.area[i] * noise.row(i)).cwiseAbs2();
+    }
+  }
+  if (!(whole.reference > 0))
+    fail("the path tracer found no reflected light to compare with; does the scene emit, and reflect?");
+
+  ReferenceComparison result;
+  result.mean_difference = whole.difference / whole.reference;
+  result.mean_difference_standard_error = whole.standard_error() / whole.reference;
+  const double weight = whole.area * static_cast<double>(channels);
+  const double mean = whole.reference / weight;
+  const double mean_square = (mesh.area.asDiagonal() * difference.cwiseAbs2()).sum() / weight;
+  const double noise_square = (mesh.area.asDiagonal() * noise.cwiseAbs2()).sum() / weight;
+  result.rms_difference = std::sqrt(std::max(0.0, mean_square - noise_square)) / mean;
+  result.rms_standard_error = std::sqrt(noise_square) / mean;
+  result.beyond_four_standard_errors =
+      static_cast<double>((difference.array().abs() > 4 * noise.array()).count()) /
+      static_cast<double>(difference.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].area == 0) continue;
+    const double group_weight = groups[g].area * static_cast<double>(channels);
+    const bool named = mesh.scene && g < mesh.scene->groups.size();
+    result.groups.push_back({named ? mesh.scene->groups[g] : std::to_string(g), groups[g].area,
+                             groups[g].reference / group_weight, groups[g].difference / group_weight,
+                             groups[g].standard_error() / group_weight});
+  }
+  return result;
+}
+
+}  // namespace radiosity
