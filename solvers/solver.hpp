@@ -5,20 +5,22 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
 namespace radiosity {
 
-/// Solves B = E + T B for every column of E at once. Steppable: iterations may be spread over frames (003, section 3.3.2).
+/// Solves B = E + T B for every column of E at once. Steppable: iterations may be spread over frames (003,
+/// section 3.3.2).
 ///
 ///   solver->start(E);                       // n x c, W/m^2, c a multiple of the operator's channels
 ///   while (!solver->converged()) solver->step();
 ///   const Field& B = solver->radiosity();   // usable after every step
 ///
-/// Every solver stops on the relative residual ||E - (I - T) B|| / ||E|| of the area norm, computed (not recurred) before it
-/// says that it has converged. What it cannot solve it refuses with an Error: a singular system (rho = 1 in a closed
-/// room), a diverging iteration, a budget that would be exceeded.
+/// Every solver stops on the relative residual ||E - (I - T) B|| / ||E|| of the area norm, computed (not
+/// recurred) before it says that it has converged. What it cannot solve it refuses with an Error: a singular
+/// system (rho = 1 in a closed room), a diverging iteration, a budget that would be exceeded.
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -38,15 +40,18 @@ class Solver {
   /// Largest relative residual of any column as last computed.
   virtual double residual() const = 0;
 
-  /// Products with the operator used so far for the column that needed most (all columns of a product count once).
+  /// Products with the operator used so far for the column that needed most (all columns of a product count
+  /// once).
   virtual int products() const = 0;
 
   virtual std::string describe() const = 0;
 };
 
 struct SolverOptions {
-  double tolerance = 1e-6;     ///< relative residual
-  int max_products = 100000;   ///< more throws Error with the residual reached
+  double tolerance = 1e-6;    ///< relative residual
+  int max_products = 100000;  ///< more throws Error with the residual reached
+  std::size_t matrix_bytes =
+      std::size_t{8} << 30;  ///< most that solvers that read the entries of T (gauss-seidel, lu) may keep
 };
 
 /// Runs a solver to its end; returns B.

@@ -35,7 +35,8 @@ class SolverRegistry {
   const std::vector<SolverEntry>& entries() const { return entries_; }
 
   /// Parses and builds; an empty spec means cg where the operator is symmetric, else gmres.
-  /// Throws UsageError for unknown names and keys, and for a solver that the operator does not allow (cg on an unsymmetric one).
+  /// Throws UsageError for unknown names and keys, and for a solver that the operator does not allow (cg on
+  /// an unsymmetric one).
   std::unique_ptr<Solver> make(const std::string& spec, const SolverProblem& problem) const;
 
  private:

@@ -1,0 +1,113 @@
+#include "solvers/conjugate_gradients.hpp"
+
+#include "foundation/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radiosity {
+
+namespace {
+
+const KernelOperator& require_kernel(const LinearOperator& transport) {
+  const auto* kernel = dynamic_cast<const KernelOperator*>(&transport);
+  if (kernel == nullptr || !transport.symmetric())
+    fail<UsageError>("cg needs a symmetric kernel, which the operator {} is not: use gmres.",
+                     transport.describe());
+  return *kernel;
+}
+
+}  // namespace
+
+ConjugateGradients::ConjugateGradients(const SolverProblem& problem)
+    : SteppedSolver("cg", problem), kernel_(require_kernel(problem.transport)) {}
+
+void ConjugateGradients::begin() {
+  root_reflectance_ = kernel_.reflectance().cwiseSqrt();
+  solution_ = Field::Zero(size(), emission().cols());
+  residual_ = solution_;
+  direction_ = solution_;
+  columns_.assign(static_cast<std::size_t>(emission().cols()), Column{});
+  for (const Index j : open_columns()) show_radiosity(j);
+}
+
+void ConjugateGradients::advance() {
+  spend_products();
+  const std::vector<Index> columns = open_columns();
+  Field inputs(size(), static_cast<Index>(columns.size()));
+  Field outputs(size(), inputs.cols());
+  for (Index k = 0; k < inputs.cols(); ++k) {
+    const Index j = columns[static_cast<std::size_t>(k)];
+    const auto root = root_reflectance_.col(j % channels());
+    if (columns_[static_cast<std::size_t>(j)].next == Next::evaluate)
+      inputs.col(k) = root_area().cwiseProduct(radiosity().col(j));
+    else
+      inputs.col(k) = root.cwiseProduct(direction_.col(j));
+  }
+  kernel_.apply_kernel(inputs, outputs);
+  for (Index k = 0; k < inputs.cols(); ++k) {
+    const Index j = columns[static_cast<std::size_t>(k)];
+    if (columns_[static_cast<std::size_t>(j)].next == Next::evaluate)
+      evaluate(j, outputs.col(k));
+    else
+      iterate(j, outputs.col(k));
+  }
+}
+
+void ConjugateGradients::evaluate(Index j, const Eigen::VectorXd& kernel_product) {
+  Column& column = columns_[static_cast<std::size_t>(j)];
+  const auto root = root_reflectance_.col(j % channels());
+  const double before = accepted_residual(j);
+  const Eigen::VectorXd scattered = root.cwiseProduct(kernel_product);  // R^{1/2} K b
+
+  // The residual of the radiosity as it is stored, rounding of b = e + R^{1/2} w included.
+  const Eigen::VectorXd defect =
+      root_area().cwiseProduct(emission().col(j) - radiosity().col(j)) + root.cwiseProduct(scattered);
+  const double defect_norm = defect.norm();
+  accept_residual(j, defect_norm);
+  if (small_enough(j, defect_norm)) return;
+
+  // A second start from here is a residual correction: worth while as long as it gains something.
+  const bool gained = !column.evaluated || accepted_residual(j) < 0.5 * before;
+  column.fruitless_evaluations = gained ? 0 : column.fruitless_evaluations + 1;
+  if (column.fruitless_evaluations >= 2) fail_as_stagnated(j);
+  column.evaluated = true;
+  residual_.col(j) = scattered - solution_.col(j);
+  direction_.col(j) = residual_.col(j);
+  column.squared_residual = residual_.col(j).squaredNorm();
+  if (column.squared_residual == 0)
+    fail_as_stagnated(j);  // only rounding is left, and the tolerance is below it
+  column.smallest_residual = defect_norm;
+  column.steps_without_progress = 0;
+  column.next = Next::iterate;
+}
+
+void ConjugateGradients::iterate(Index j, const Eigen::VectorXd& kernel_product) {
+  Column& column = columns_[static_cast<std::size_t>(j)];
+  const auto root = root_reflectance_.col(j % channels());
+  const Eigen::VectorXd image = direction_.col(j) - root.cwiseProduct(kernel_product);  // (I - S) p
+  const double curvature = direction_.col(j).dot(image);
+  if (!(curvature > singularity_threshold() * direction_.col(j).squaredNorm())) fail_as_singular();
+
+  const double step_length = column.squared_residual / curvature;
+  solution_.col(j) += step_length * direction_.col(j);
+  residual_.col(j) -= step_length * image;
+  const double squared_residual = residual_.col(j).squaredNorm();
+  direction_.col(j) = residual_.col(j) + squared_residual / column.squared_residual * direction_.col(j);
+  column.squared_residual = squared_residual;
+  show_radiosity(j);
+
+  const double recurred = root.cwiseProduct(residual_.col(j)).norm();
+  column.steps_without_progress = recurred < column.smallest_residual ? 0 : column.steps_without_progress + 1;
+  column.smallest_residual = std::min(column.smallest_residual, recurred);
+  const bool stuck = column.steps_without_progress > 50 + size();
+  if (small_enough(j, recurred) || squared_residual == 0 || stuck) column.next = Next::evaluate;
+}
+
+void ConjugateGradients::show_radiosity(Index j) {
+  const auto root = root_reflectance_.col(j % channels());
+  mutable_radiosity().col(j) =
+      emission().col(j) + root.cwiseProduct(solution_.col(j)).cwiseQuotient(root_area());
+}
+
+}  // namespace radiosity

@@ -1,0 +1,66 @@
+#include "solvers/solver_registry.hpp"
+
+#include "foundation/error.hpp"
+#include "solvers/conjugate_gradients.hpp"
+#include "solvers/gauss_seidel.hpp"
+#include "solvers/gmres.hpp"
+#include "solvers/lu.hpp"
+#include "solvers/neumann.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace radiosity {
+
+namespace {
+
+template <typename Kind>
+std::unique_ptr<Solver> make_plain(Spec&, const SolverProblem& problem) {
+  return std::make_unique<Kind>(problem);
+}
+
+std::unique_ptr<Solver> make_gmres(Spec& spec, const SolverProblem& problem) {
+  return std::make_unique<Gmres>(problem, static_cast<int>(spec.integer("restart", 30, 1, 10000)));
+}
+
+}  // namespace
+
+SolverRegistry::SolverRegistry(std::vector<SolverEntry> entries) {
+  for (SolverEntry& entry : entries) add(std::move(entry));
+}
+
+void SolverRegistry::add(SolverEntry entry) {
+  for (const SolverEntry& known : entries_)
+    if (known.name == entry.name) fail<UsageError>("A solver named '{}' is registered already.", entry.name);
+  entries_.push_back(std::move(entry));
+}
+
+std::unique_ptr<Solver> SolverRegistry::make(const std::string& text, const SolverProblem& problem) const {
+  Spec spec = Spec::parse(!text.empty() ? text : problem.transport.symmetric() ? "cg" : "gmres");
+  const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const SolverEntry& candidate) {
+    return candidate.name == spec.name();
+  });
+  if (entry == entries_.end()) {
+    std::string known;
+    for (const SolverEntry& candidate : entries_) known += (known.empty() ? "" : ", ") + candidate.name;
+    fail<UsageError>("There is no solver '{}': the known ones are {}.", spec.name(), known);
+  }
+  std::unique_ptr<Solver> solver = entry->make(spec, problem);
+  spec.finish();
+  return solver;
+}
+
+SolverRegistry cpu_solvers() {
+  return SolverRegistry({
+      {"cg", "conjugate gradients on the symmetric form; the default for symmetric operators", "cg",
+       make_plain<ConjugateGradients>},
+      {"gmres", "restarted GMRES; the default for other operators", "gmres:restart=30", make_gmres},
+      {"neumann", "one bounce an iteration, where the spectral radius is known to be below 1", "neumann",
+       make_plain<Neumann>},
+      {"gauss-seidel", "sweeps over the patches (document 003); reads every entry", "gauss-seidel",
+       make_plain<GaussSeidel>},
+      {"lu", "direct: LU of every channel's matrix; reads every entry", "lu", make_plain<Lu>},
+  });
+}
+
+}  // namespace radiosity
