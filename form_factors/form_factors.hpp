@@ -40,6 +40,8 @@ struct FormFactors {
   std::shared_ptr<const RowMajorMatrix<double>> unsymmetric; ///< F itself; null unless gather
   Eigen::VectorXd exposed;  ///< n, fraction of the hemisphere of each patch that ends on fronts; 0 marks a patch that is not live
   FormFactorQuality quality;
+  /// groups x groups: estimated standard error of each F between groups, before a closure; empty if not known.
+  Eigen::MatrixXd group_standard_error;
 
   Index patch_count() const { return mesh->patch_count(); }
   bool symmetric() const { return kernel != nullptr; }

@@ -100,7 +100,7 @@ void PatchGeometry::add_clusters(const PatchMesh& mesh, std::span<int> patches, 
   if (patches.size() > cluster_size) {
     Vector3d low = Vector3d::Constant(1e300), high = -low;
     for (const int i : patches) low = low.cwiseMin(mesh.centroid.col(i)), high = high.cwiseMax(mesh.centroid.col(i));
-    int axis = 0;
+    Index axis = 0;
     (high - low).maxCoeff(&axis);
     const auto middle = patches.begin() + static_cast<std::ptrdiff_t>(patches.size() / 2);
     std::nth_element(patches.begin(), middle, patches.end(), [&](int a, int b) {
