@@ -1,5 +1,8 @@
 #pragma once
 
+#include "kernels/row_major_matrix.hpp"
+#include "kernels/symmetric_tiles.hpp"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -24,5 +27,12 @@ struct CsrMatrix {
     return column.size() * sizeof(std::int32_t) + row_begin.size() * sizeof(std::int64_t);
   }
 };
+
+/// The entries that are not zero in the stored type, columns rising within a row; of a symmetric matrix both
+/// halves.
+template <typename Scalar>
+CsrMatrix<Scalar> compress(const SymmetricTiles<double>& tiles);
+template <typename Scalar>
+CsrMatrix<Scalar> compress(const RowMajorMatrix<double>& matrix);
 
 }  // namespace radiosity

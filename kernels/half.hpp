@@ -9,8 +9,11 @@ struct Half {
   std::uint16_t bits = 0;
 };
 
-/// Round to nearest even; overflow gives infinity.
+/// Round to nearest even, in one step; overflow gives infinity, NaN stays NaN.
 Half to_half(float value);
+Half to_half(double value);
+
+/// Exact.
 float to_float(Half value);
 
 }  // namespace radiosity

@@ -11,8 +11,11 @@ using ConstFieldRef = Eigen::Ref<const Eigen::MatrixXd>;
 using FieldRef = Eigen::Ref<Eigen::MatrixXd>;
 
 /// Y = K X for X and Y of n x c, any c >= 0; Y is written, never read, and does not alias X.
-/// float and Half tiles multiply in float32 within a tile and add up in double: componentwise error <= 2 n u |K| |X|
-/// with u the unit roundoff of the stored type. The result is the same, bit for bit, for any number of threads.
+/// float and Half tiles multiply in float32 within a tile and add up in double: componentwise error <= 2 n u
+/// |K| |X| with u the unit roundoff of the stored type, barring underflow (X is scaled per block of 64 rows
+/// and column, so only what is 2^-126 of its block's largest can underflow). The result is the same, bit for
+/// bit, for any number of threads, and that of a column does not depend on the other columns. Throws
+/// UsageError where shapes do not fit.
 void multiply(const SymmetricTiles<double>& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
 void multiply(const SymmetricTiles<float>& K, const ConstFieldRef& X, FieldRef Y,
@@ -34,10 +37,11 @@ void multiply_transposed(const RowMajorMatrix<float>& M, const ConstFieldRef& X,
 void multiply_transposed(const RowMajorMatrix<Half>& M, const ConstFieldRef& X, FieldRef Y,
                          InstructionSet instructions = best_instruction_set());
 
-/// Y = M X for a sparse matrix. Same promises.
-void multiply(const CsrMatrix<double>& M, const ConstFieldRef& X, FieldRef Y,
-              InstructionSet instructions = best_instruction_set());
-void multiply(const CsrMatrix<float>& M, const ConstFieldRef& X, FieldRef Y,
-              InstructionSet instructions = best_instruction_set());
+/// Y = M X and Y = M' X for a sparse matrix, in double. Same promises; no vector instructions: gathering X is
+/// the limit.
+void multiply(const CsrMatrix<double>& M, const ConstFieldRef& X, FieldRef Y);
+void multiply(const CsrMatrix<float>& M, const ConstFieldRef& X, FieldRef Y);
+void multiply_transposed(const CsrMatrix<double>& M, const ConstFieldRef& X, FieldRef Y);
+void multiply_transposed(const CsrMatrix<float>& M, const ConstFieldRef& X, FieldRef Y);
 
 }  // namespace radiosity

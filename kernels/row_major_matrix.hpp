@@ -11,8 +11,8 @@ namespace radiosity {
 
 using Index = Eigen::Index;
 
-/// A full m x n matrix stored by rows, each row padded with zeros to a multiple of 64 bytes and aligned to it.
-/// The matrix is scale() times the stored numbers.
+/// A full m x n matrix stored by rows, each row padded with zeros to a multiple of 64 numbers and aligned to
+/// 64 bytes. The matrix is scale() times the stored numbers.
 template <typename Scalar>
 class RowMajorMatrix {
  public:
@@ -41,6 +41,10 @@ class RowMajorMatrix {
   double scale_ = 1;
   std::unique_ptr<Scalar[], Release> entries_;
 };
+
+/// The same matrix in another precision, as convert() of SymmetricTiles.
+template <typename To>
+RowMajorMatrix<To> convert(const RowMajorMatrix<double>& matrix);
 
 extern template class RowMajorMatrix<double>;
 extern template class RowMajorMatrix<float>;

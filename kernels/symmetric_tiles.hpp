@@ -14,9 +14,9 @@ namespace radiosity {
 
 using Index = Eigen::Index;
 
-/// A symmetric n x n matrix whose upper triangle is kept in square tiles; tiles that are zero are not kept at all.
-/// So a product reads half of the entries of a full matrix, and nothing where patches face away from each other or
-/// live in separate rooms. Rows and columns beyond n (the last tile's padding) are zero.
+/// A symmetric n x n matrix whose upper triangle is kept in square tiles; tiles that are zero are not kept at
+/// all. So a product reads half of the entries of a full matrix, and nothing where patches face away from
+/// each other or live in separate rooms. Rows and columns beyond n (the last tile's padding) are zero.
 /// Scalar: double, float or Half; the matrix is scale() times the stored numbers.
 template <typename Scalar>
 class SymmetricTiles {
@@ -34,7 +34,8 @@ class SymmetricTiles {
   double scale() const { return scale_; }
   void set_scale(double scale) { scale_ = scale; }
 
-  /// The tiles of tile row I are those numbered row_begin(I) ... row_begin(I + 1) - 1, with rising tile column.
+  /// The tiles of tile row I are those numbered row_begin(I) ... row_begin(I + 1) - 1, with rising tile
+  /// column.
   Index row_begin(Index tile_row) const { return row_begin_[static_cast<std::size_t>(tile_row)]; }
   Index tile_column(Index tile) const { return columns_[static_cast<std::size_t>(tile)]; }
 
@@ -49,12 +50,14 @@ class SymmetricTiles {
   /// scale() times the stored entry; 0 where no tile is kept. Any order of i and j.
   double operator()(Index i, Index j) const;
 
-  /// Sets (i, j) and (j, i) to a stored value (without scale). Throws std::out_of_range if their tile is not kept.
-  /// Safe from several threads for different unordered pairs.
+  /// Sets (i, j) and (j, i) to a stored value (without scale). Throws std::out_of_range if their tile is not
+  /// kept. Safe from several threads for different unordered pairs.
   void set(Index i, Index j, Scalar value);
 
   /// Bytes of the entries and of the directory of tiles.
-  std::size_t entry_bytes() const { return static_cast<std::size_t>(tile_count() * tile_entries) * sizeof(Scalar); }
+  std::size_t entry_bytes() const {
+    return static_cast<std::size_t>(tile_count() * tile_entries) * sizeof(Scalar);
+  }
   std::size_t directory_bytes() const;
 
   /// A copy without the tiles whose entries are all zero.
@@ -72,8 +75,9 @@ class SymmetricTiles {
   std::unique_ptr<Scalar[], Release> entries_;
 };
 
-/// The same matrix in another precision. For Half the scale is a power of two that puts the largest entry near the top
-/// of binary16's range, so that entries down to 2e-9 of it keep all their digits.
+/// The same matrix in another precision, each entry rounded once. A narrower type gets a scale that is a
+/// power of two: for Half it puts the largest entry near the top of binary16's range, so that entries down to
+/// 2e-9 of it keep all their digits; for float near 1. Throws Error for entries that are NaN or infinite.
 template <typename To, typename From>
 SymmetricTiles<To> convert(const SymmetricTiles<From>& tiles);
 

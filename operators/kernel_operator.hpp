@@ -15,7 +15,8 @@ class KernelOperator : public LinearOperator, public TransposedApply {
   Index channels() const final { return reflectance_.cols(); }
   bool symmetric() const final { return true; }
 
-  /// Y = K X for X and Y of n x c, any c; counted and timed like apply (a column is a product whatever channels() is).
+  /// Y = K X for X and Y of n x c, any c; counted and timed like apply (a column is a product whatever
+  /// channels() is).
   void apply_kernel(const ConstFieldRef& X, FieldRef Y) const;
 
   void apply_transposed(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const final;

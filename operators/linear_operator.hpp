@@ -30,10 +30,10 @@ struct Certificate {
   std::string method;                           ///< "proved", "sampled, 99 %", "not known"
 };
 
-/// A linear map from a field on the patches to a field on the patches: T = R F, an approximation of it, a sum of its
-/// powers, or (I - T)^-1, on whatever device. Fields are double whatever the storage is.
-/// With several channels, column j of a field belongs to channel j mod channels() (lights one after the other).
-/// `apply` checks, counts and times; implementations override `apply_impl`.
+/// A linear map from a field on the patches to a field on the patches: T = R F, an approximation of it, a sum
+/// of its powers, or (I - T)^-1, on whatever device. Fields are double whatever the storage is. With several
+/// channels, column j of a field belongs to channel j mod channels() (lights one after the other). `apply`
+/// checks, counts and times; implementations override `apply_impl`.
 class LinearOperator {
  public:
   struct Usage {
@@ -49,8 +49,8 @@ class LinearOperator {
   /// Columns that belong together: 3 for RGB, 1 for a grey scene.
   virtual Index channels() const = 0;
 
-  /// Y = alpha A X + beta Y. X and Y are n x c with c a multiple of channels(); beta = 0 never reads Y, alpha = 0 never
-  /// reads X. Throws UsageError for wrong shapes and where X and Y share memory.
+  /// Y = alpha A X + beta Y. X and Y are n x c with c a multiple of channels(); beta = 0 never reads Y, alpha
+  /// = 0 never reads X. Throws UsageError for wrong shapes and where X and Y share memory.
   void apply(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const;
 
   /// Y = A X.

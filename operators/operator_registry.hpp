@@ -18,7 +18,8 @@ struct OperatorEntry {
   std::function<std::unique_ptr<LinearOperator>(Spec&, const FormFactors&)> make;
 };
 
-/// The operators a program knows, as a value: assembled from lists (cpu_operators(), a user's own) and passed on.
+/// The operators a program knows, as a value: assembled from lists (cpu_operators(), a user's own) and passed
+/// on.
 class OperatorRegistry {
  public:
   OperatorRegistry() = default;

@@ -7,8 +7,8 @@
 
 namespace radiosity {
 
-/// A parsed spec string, "name" or "name:key=value,flag,...". A factory takes the keys it knows; a key that nobody has
-/// taken is an error that lists those that were asked for.
+/// A parsed spec string, "name" or "name:key=value,flag,...". A factory takes the keys it knows; a key that
+/// nobody has taken is an error that lists those that were asked for.
 class Spec {
  public:
   /// Throws UsageError for an empty name, an empty key and a key given twice.
@@ -17,14 +17,15 @@ class Spec {
   const std::string& name() const { return name_; }
   const std::string& text() const { return text_; }
 
-  /// The value of `key`, or `fallback`. Throws UsageError with the spec, the key and the range if it is not a number in
-  /// [low, high].
+  /// The value of `key`, or `fallback`. Throws UsageError with the spec, the key and the range if it is not a
+  /// number in [low, high].
   double number(const std::string& key, double fallback, double low, double high);
   std::int64_t integer(const std::string& key, std::int64_t fallback, std::int64_t low, std::int64_t high);
   std::string text(const std::string& key, const std::string& fallback);
 
   /// One of `choices`, given as key=choice or as a bare flag; throws UsageError that lists them.
-  std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices);
+  std::string choice(const std::string& key, const std::string& fallback,
+                     const std::vector<std::string>& choices);
 
   /// A flag is given as "flag", "flag=1" or "flag=0".
   bool flag(const std::string& key, bool fallback = false);

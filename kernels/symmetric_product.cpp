@@ -1,0 +1,100 @@
+#include "foundation/parallel.hpp"
+#include "kernels/blocked_field.hpp"
+#include "kernels/partial_sums.hpp"
+#include "kernels/product_shapes.hpp"
+#include "kernels/products.hpp"
+#include "kernels/tile_products.hpp"
+
+#include <algorithm>
+
+namespace radiosity {
+namespace {
+
+/// Cuts the tile rows into chunks of about equal numbers of tiles; chunk k is the tile rows result[k] ...
+/// result[k + 1] - 1. Depends on the matrix only, never on threads: it decides the order of the sums.
+template <typename Scalar>
+std::vector<Index> split_tile_rows(const SymmetricTiles<Scalar>& K) {
+  constexpr Index tiles_worth_a_chunk = 64;  // below, partial sums cost more than a thread gains
+  constexpr Index most_chunks = 64;
+  const Index chunks = std::clamp<Index>(K.tile_count() / tiles_worth_a_chunk, 1, most_chunks);
+  std::vector<Index> begin = {0};
+  for (Index I = 1; I < K.tile_rows(); ++I)
+    if (K.row_begin(I) * chunks >= K.tile_count() * static_cast<Index>(begin.size())) begin.push_back(I);
+  begin.push_back(K.tile_rows());
+  return begin;
+}
+
+template <typename Scalar>
+class SymmetricProduct {
+ public:
+  using Number = typename Multiplier<Scalar>::Type;
+
+  SymmetricProduct(const SymmetricTiles<Scalar>& K, const BlockedField<Number>& X, PartialSums& sums,
+                   const TileProducts<Scalar>& products)
+      : K_(K), X_(X), sums_(sums), products_(products) {}
+
+  void multiply_rows(Index chunk, Index first_row, Index last_row) {
+    sums_.start(chunk);
+    for (Index I = first_row; I < last_row; ++I)
+      for (Index tile = K_.row_begin(I); tile < K_.row_begin(I + 1); ++tile)
+        multiply_tile(chunk, I, K_.tile_column(tile), K_.tile_data(tile));
+  }
+
+ private:
+  void multiply_tile(Index chunk, Index I, Index J, const Scalar* entries) {
+    for (Index c = 0; c < X_.columns(); c += products_.most_columns) {
+      const Index columns = std::min<Index>(products_.most_columns, X_.columns() - c);
+      TileTask<Scalar> task;
+      task.entries = entries;
+      task.x_columns = X_.block(J) + 64 * c;
+      task.x_columns_scale = X_.scale(J) + c;
+      task.y_rows = sums_.block(chunk, I) + 64 * c;
+      task.x_rows = X_.block(I) + 64 * c;
+      task.x_rows_scale = X_.scale(I) + c;
+      task.y_columns = sums_.block(chunk, J) + 64 * c;
+      const auto& products = I == J ? products_.to_rows : products_.both;
+      products[static_cast<std::size_t>(columns - 1)](task);
+    }
+  }
+
+  const SymmetricTiles<Scalar>& K_;
+  const BlockedField<Number>& X_;
+  PartialSums& sums_;
+  const TileProducts<Scalar>& products_;
+};
+
+template <typename Scalar>
+void multiply_symmetric(const SymmetricTiles<Scalar>& K, const ConstFieldRef& X, FieldRef Y,
+                        InstructionSet instructions) {
+  check_product_shapes(K.size(), K.size(), X, Y);
+  const TileProducts<Scalar> products = tile_products<Scalar>(instructions);
+  std::vector<Index> rows = split_tile_rows(K);
+  std::vector<Index> first_block(rows.begin(), rows.end() - 1);
+  for (Index first = 0; first < X.cols(); first += columns_at_once) {
+    const Index columns = std::min(columns_at_once, X.cols() - first);
+    const BlockedField<typename Multiplier<Scalar>::Type> blocked(X, first, columns);
+    PartialSums sums(blocked.blocks(), columns, first_block);
+    SymmetricProduct<Scalar> product(K, blocked, sums, products);
+    parallel_for(first_block.size(), [&](std::size_t chunk) {
+      product.multiply_rows(static_cast<Index>(chunk), rows[chunk], rows[chunk + 1]);
+    });
+    sums.finish(K.scale(), first, Y);
+  }
+}
+
+}  // namespace
+
+void multiply(const SymmetricTiles<double>& K, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions) {
+  multiply_symmetric(K, X, Y, instructions);
+}
+void multiply(const SymmetricTiles<float>& K, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions) {
+  multiply_symmetric(K, X, Y, instructions);
+}
+void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions) {
+  multiply_symmetric(K, X, Y, instructions);
+}
+
+}  // namespace radiosity

@@ -1,0 +1,88 @@
+#if defined(__AVX512F__)
+#include "kernels/tile_products.hpp"
+
+#include <immintrin.h>
+
+namespace radiosity {
+namespace {
+
+template <typename Number>
+struct Lanes;
+
+template <>
+struct Lanes<double> {
+  static constexpr int width = 8;
+  using Vector = __m512d;
+  static Vector zero() { return _mm512_setzero_pd(); }
+  static Vector broadcast(double number) { return _mm512_set1_pd(number); }
+  static Vector load(const double* from) { return _mm512_load_pd(from); }
+  static void store(double* to, Vector vector) { _mm512_store_pd(to, vector); }
+  static Vector multiply_add(Vector a, Vector b, Vector c) { return _mm512_fmadd_pd(a, b, c); }
+
+  static Vector sums_of_two(const double* lanes) {  // rows 0 1 | 0 1 | 0 1 | 0 1
+    const Vector row0 = load(lanes);
+    const Vector row1 = load(lanes + 8);
+    return _mm512_add_pd(_mm512_unpacklo_pd(row0, row1), _mm512_unpackhi_pd(row0, row1));
+  }
+  static Vector add_quarters(Vector a, Vector b) {  // a0+a1, a2+a3, b0+b1, b2+b3 in quarters of a vector
+    return _mm512_add_pd(_mm512_shuffle_f64x2(a, b, 0x88), _mm512_shuffle_f64x2(a, b, 0xdd));
+  }
+  static void row_sums(const double* lanes, double* sums) {
+    const Vector first = add_quarters(sums_of_two(lanes), sums_of_two(lanes + 16));
+    const Vector second = add_quarters(sums_of_two(lanes + 32), sums_of_two(lanes + 48));
+    store(sums, add_quarters(first, second));
+  }
+};
+
+template <>
+struct Lanes<float> {
+  static constexpr int width = 16;
+  using Vector = __m512;
+  static Vector zero() { return _mm512_setzero_ps(); }
+  static Vector broadcast(float number) { return _mm512_set1_ps(number); }
+  static Vector load(const float* from) { return _mm512_load_ps(from); }
+  static Vector load(const Half* from) {
+    return _mm512_cvtph_ps(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)));
+  }
+  static void store(float* to, Vector vector) { _mm512_store_ps(to, vector); }
+  static Vector multiply_add(Vector a, Vector b, Vector c) { return _mm512_fmadd_ps(a, b, c); }
+
+  static Vector sums_of_two(const float* lanes) {  // rows 0 1 0 1 in each quarter
+    const Vector row0 = load(lanes);
+    const Vector row1 = load(lanes + 16);
+    return _mm512_add_ps(_mm512_unpacklo_ps(row0, row1), _mm512_unpackhi_ps(row0, row1));
+  }
+  static Vector sums_of_four(const float* lanes) {  // rows 0 1 2 3 in each quarter
+    const __m512d first = _mm512_castps_pd(sums_of_two(lanes));
+    const __m512d second = _mm512_castps_pd(sums_of_two(lanes + 32));
+    return _mm512_add_ps(_mm512_castpd_ps(_mm512_unpacklo_pd(first, second)),
+                         _mm512_castpd_ps(_mm512_unpackhi_pd(first, second)));
+  }
+  static Vector add_quarters(Vector a, Vector b) {  // a0+a1, a2+a3, b0+b1, b2+b3 in quarters of a vector
+    return _mm512_add_ps(_mm512_shuffle_f32x4(a, b, 0x88), _mm512_shuffle_f32x4(a, b, 0xdd));
+  }
+  static void row_sums(const float* lanes, float* sums) {
+    const Vector first = add_quarters(sums_of_four(lanes), sums_of_four(lanes + 64));
+    const Vector second = add_quarters(sums_of_four(lanes + 128), sums_of_four(lanes + 192));
+    store(sums, add_quarters(first, second));
+  }
+};
+
+template <typename Number, int columns>
+constexpr int strip_vectors = 4;
+
+}  // namespace
+}  // namespace radiosity
+
+#include "kernels/tile_products.inl"
+
+namespace radiosity {
+
+void get_avx512_products(TileProducts<double>& f64, TileProducts<float>& f32, TileProducts<Half>& f16) {
+  get_products(f64);
+  get_products(f32);
+  get_products(f16);
+}
+
+}  // namespace radiosity
+#endif

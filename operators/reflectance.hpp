@@ -1,0 +1,14 @@
+#pragma once
+
+#include "kernels/products.hpp"
+
+namespace radiosity {
+
+/// Throws UsageError unless `reflectance` is n x channels (at least one) with 0 <= rho <= 1.
+void check_reflectance(const Eigen::MatrixXd& reflectance, Index n);
+
+/// Y = diag_c product + beta Y where column j takes the column j mod channels of `diagonals` (n x channels).
+/// beta = 0 never reads Y. An exact 0 of the product stays 0.
+void add_product(const Eigen::ArrayXXd& diagonals, const ConstFieldRef& product, double beta, FieldRef Y);
+
+}  // namespace radiosity
