@@ -70,8 +70,8 @@ Eigen::MatrixXd read_values(std::ifstream& in, const Header& header, const std::
   in.seekg(0, std::ios::end);
   const auto available = static_cast<std::uint64_t>(in.tellg() - data_start);
   in.seekg(data_start);
-  const auto wanted = static_cast<unsigned long double>(rows) * static_cast<unsigned long double>(cols) * sizeof(Scalar);
-  if (wanted > static_cast<unsigned long double>(available))
+  const auto wanted = static_cast<long double>(rows) * static_cast<long double>(cols) * sizeof(Scalar);
+  if (wanted > static_cast<long double>(available))
     fail("'{}' is truncated: {} x {} numbers are announced, {} bytes are there", file, rows, cols, available);
 
   using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
