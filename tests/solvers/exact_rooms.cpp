@@ -1,0 +1,112 @@
+#include "exact_rooms.hpp"
+
+#include "foundation/random.hpp"
+
+#include <cmath>
+
+namespace radiosity::testing {
+
+namespace {
+
+Eigen::VectorXd random_areas(Index n, RandomStream& random) {
+  Eigen::VectorXd areas(n);
+  for (double& area : areas) area = random.uniform(0.2, 3);
+  return areas;
+}
+
+/// A symmetric matrix of random numbers of which a third are zero; its diagonal is zero.
+Eigen::MatrixXd random_visibility(Index n, RandomStream& random) {
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(n, n);
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < i; ++j)
+      if (random.uniform() > 1.0 / 3) weights(i, j) = weights(j, i) = random.uniform();
+  return weights;
+}
+
+}  // namespace
+
+Eigen::MatrixXd Room::transport(Index channel) const {
+  return reflectance.col(channel).asDiagonal() *
+         (root_area().cwiseInverse().asDiagonal() * kernel * root_area().asDiagonal());
+}
+
+Room sphere_cavity(Index n, std::uint64_t seed, double reflectance) {
+  RandomStream random(seed);
+  Room room;
+  room.area = random_areas(n, random);
+  room.reflectance = Eigen::MatrixXd::Constant(n, 1, reflectance);
+  room.kernel = room.root_area() * room.root_area().transpose() / room.area.sum();
+  return room;
+}
+
+Room closed_room(Index n, std::uint64_t seed, double reflectance) {
+  RandomStream random(seed);
+  Room room;
+  room.area = random_areas(n, random);
+  room.reflectance = Eigen::MatrixXd::Constant(n, 1, reflectance);
+  room.kernel = random_visibility(n, random);
+  const Eigen::VectorXd root = room.root_area();
+  for (int sweep = 0; sweep < 200;
+       ++sweep) {  // symmetric Sinkhorn; K A^{1/2} = A^{1/2} says that rows of F sum to 1
+    const Eigen::VectorXd scale = root.cwiseQuotient(room.kernel * root).cwiseSqrt();
+    room.kernel = (scale.asDiagonal() * room.kernel * scale.asDiagonal()).eval();
+    room.kernel = (0.5 * (room.kernel + room.kernel.transpose())).eval();
+  }
+  return room;
+}
+
+Room open_room(Index n, std::uint64_t seed, Index channels) {
+  RandomStream random(seed);
+  Room room = closed_room(n, seed + 1000, 0);
+  Eigen::VectorXd openness(n);
+  for (Index i = 0; i < n; ++i) openness[i] = i % 17 == 3 ? 0 : random.uniform(0.5, 1);
+  room.kernel = (openness.asDiagonal() * room.kernel * openness.asDiagonal()).eval();
+  room.reflectance.resize(n, channels);
+  for (Index c = 0; c < channels; ++c)
+    for (Index i = 0; i < n; ++i) room.reflectance(i, c) = i % 5 == 2 ? 0 : random.uniform(0, 0.95);
+  return room;
+}
+
+Eigen::MatrixXd random_lights(Index n, Index columns, std::uint64_t seed) {
+  Eigen::MatrixXd lights(n, columns);
+  for (Index j = 0; j < columns; ++j) {
+    RandomStream random(seed, static_cast<std::uint64_t>(j));
+    for (Index i = 0; i < n; ++i) lights(i, j) = random.uniform();
+  }
+  return lights;
+}
+
+FormFactors form_factors_of(const Room& room) {
+  const Index n = room.size();
+  auto mesh = std::make_shared<PatchMesh>();
+  mesh->patches.resize(static_cast<std::size_t>(n));
+  mesh->area = room.area;
+  mesh->reflectance = room.reflectance;
+  mesh->emission = Eigen::MatrixXd::Zero(n, room.reflectance.cols());
+  mesh->normal = Eigen::Matrix3Xd::Zero(3, n);
+  mesh->centroid = Eigen::Matrix3Xd::Zero(3, n);
+  auto kernel = std::make_shared<SymmetricTiles<double>>(n, [](Index, Index) { return true; });
+  for (Index i = 0; i < n; ++i)
+    for (Index j = i; j < n; ++j) kernel->set(i, j, room.kernel(i, j));
+  FormFactors form_factors;
+  form_factors.mesh = mesh;
+  form_factors.kernel = kernel;
+  form_factors.exposed = Eigen::VectorXd::Ones(n);
+  return form_factors;
+}
+
+RoomTransport::RoomTransport(const Room& room) {
+  for (Index c = 0; c < room.reflectance.cols(); ++c) matrices_.push_back(room.transport(c));
+}
+
+void RoomTransport::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
+  for (Index j = 0; j < X.cols(); ++j) {
+    const Eigen::VectorXd image = matrices_[static_cast<std::size_t>(j % channels())] * X.col(j);
+    if (beta == 0)
+      Y.col(j) = alpha * image;
+    else
+      Y.col(j) = alpha * image + beta * Y.col(j);
+  }
+}
+
+}  // namespace radiosity::testing
