@@ -71,8 +71,12 @@ struct PatchRays::Implementation {
   void add_geometry();
 
   Vector3 scaled(const Vector3& point) const { return (point - centre) * scale; }
+
+  /// Where a ray from a patch starts: above it, and as far towards its middle, off the walls that meet it at
+  /// its edges.
   Vector3 lifted(Index patch, const Vector3& point) const {
-    return scaled(point) + scaled_lift * mesh.normal.col(patch);
+    const Vector3 inwards = (mesh.centroid.col(patch) - point).normalized();
+    return scaled(point) + scaled_lift * (mesh.normal.col(patch) + inwards);
   }
 
   /// The first front between `near` and `far` (scaled units along the unit vector `direction`), -1 if there
