@@ -9,9 +9,9 @@
 namespace radiosity {
 namespace {
 
-/// The power of two that the stored numbers of a column's block are to be multiplied by; 1 where none would
-/// help (zeros, NaN, infinity).
-double block_scale(const double* x, Index count) {
+/// The power of two that the stored numbers of a column's group of blocks are to be multiplied by; 1 where
+/// none would help (zeros, NaN, infinity).
+double power_of_two_scale(const double* x, Index count) {
   double largest = 0;
   for (Index i = 0; i < count; ++i) largest = std::max(largest, std::fabs(x[i]));
   if (largest == 0 || !std::isfinite(largest)) return 1;
@@ -25,27 +25,32 @@ template <typename Number>
 BlockedField<Number>::BlockedField(const ConstFieldRef& X, Index first_column, Index columns)
     : blocks_((X.rows() + block_size - 1) / block_size),
       columns_(columns),
-      numbers_(static_cast<std::size_t>(blocks_ * columns * block_size)),
-      scales_(static_cast<std::size_t>(blocks_ * columns), 1.0) {
+      numbers_(static_cast<std::size_t>(blocks_ * columns * block_size)) {
+  const Index groups = (blocks_ + tiles_together - 1) / tiles_together;
+  scales_.assign(static_cast<std::size_t>(groups * columns), 1.0);
   parallel_for(
-      static_cast<std::size_t>(blocks_),
-      [&](std::size_t b) { fill_block(X, first_column, static_cast<Index>(b)); }, 16);
+      static_cast<std::size_t>(groups),
+      [&](std::size_t group) { fill_blocks(X, first_column, static_cast<Index>(group)); }, 4);
 }
 
 template <typename Number>
-void BlockedField<Number>::fill_block(const ConstFieldRef& X, Index first_column, Index b) {
-  const Index count = std::min(block_size, X.rows() - b * block_size);
-  Number* numbers = numbers_.data() + b * columns_ * block_size;
-  for (Index c = 0; c < columns_; ++c, numbers += block_size) {
-    const double* x = X.col(first_column + c).data() + b * block_size;
+void BlockedField<Number>::fill_blocks(const ConstFieldRef& X, Index first_column, Index group) {
+  const Index first_row = group * tiles_together * block_size;
+  const Index last_row = std::min(first_row + tiles_together * block_size, X.rows());
+  for (Index c = 0; c < columns_; ++c) {
+    const double* x = X.col(first_column + c).data();
     double inverse = 1;
     if constexpr (std::is_same_v<Number, float>) {
-      const double scale = block_scale(x, count);
-      scales_[static_cast<std::size_t>(b * columns_ + c)] = scale;
+      const double scale = power_of_two_scale(x + first_row, last_row - first_row);
+      scales_[static_cast<std::size_t>(group * columns_ + c)] = scale;
       inverse = 1 / scale;
     }
-    for (Index i = 0; i < count; ++i) numbers[i] = static_cast<Number>(x[i] * inverse);
-    std::fill(numbers + count, numbers + block_size, Number{0});
+    for (Index row = first_row; row < last_row; row += block_size) {
+      Number* numbers = numbers_.data() + (row * columns_) + c * block_size;
+      const Index count = std::min(block_size, last_row - row);
+      for (Index i = 0; i < count; ++i) numbers[i] = static_cast<Number>(x[row + i] * inverse);
+      std::fill(numbers + count, numbers + block_size, Number{0});
+    }
   }
 }
 

@@ -32,8 +32,12 @@ void multiply_panel(const RowMajorMatrix<Scalar>& M, Index first_row, const Bloc
   for (Index c = 0; c < X.columns(); c += products.most_columns) {
     const Index columns = std::min<Index>(products.most_columns, X.columns() - c);
     alignas(64) std::array<double, 64 * TileProducts<Scalar>::most_columns> sums{};
+    alignas(64) std::array<typename Multiplier<Scalar>::Type, row_lanes_size<Scalar>> lanes;
     for (Index b = 0; b < X.blocks(); ++b) {
       TileTask<Scalar> task = panel_task(M, first_row, b);
+      task.row_lanes = lanes.data();
+      task.first = b % tiles_together == 0;
+      task.last = (b + 1) % tiles_together == 0 || b + 1 == X.blocks();
       task.x_columns = X.block(b) + 64 * c;
       task.x_columns_scale = X.scale(b) + c;
       task.y_rows = sums.data();

@@ -35,17 +35,34 @@ class SymmetricProduct {
 
   void multiply_rows(Index chunk, Index first_row, Index last_row) {
     sums_.start(chunk);
+    const AlignedBuffer<Number> lanes(static_cast<std::size_t>(column_groups() * row_lanes_size<Scalar>));
     for (Index I = first_row; I < last_row; ++I)
       for (Index tile = K_.row_begin(I); tile < K_.row_begin(I + 1); ++tile)
-        multiply_tile(chunk, I, K_.tile_column(tile), K_.tile_data(tile));
+        multiply_tile(chunk, I, tile, lanes.data());
   }
 
  private:
-  void multiply_tile(Index chunk, Index I, Index J, const Scalar* entries) {
+  Index column_groups() const {
+    return (X_.columns() + TileProducts<Scalar>::most_columns - 1) / TileProducts<Scalar>::most_columns;
+  }
+
+  /// Whether the tiles number `tile` and `tile` + 1 of tile row I are in one run of the sums along rows.
+  bool in_one_run(Index I, Index tile) const {
+    return tile >= K_.row_begin(I) && tile + 1 < K_.row_begin(I + 1) &&
+           K_.tile_column(tile) / tiles_together == K_.tile_column(tile + 1) / tiles_together;
+  }
+
+  void multiply_tile(Index chunk, Index I, Index tile, Number* lanes) {
+    const Index J = K_.tile_column(tile);
+    const bool first = !in_one_run(I, tile - 1);
+    const bool last = !in_one_run(I, tile);
     for (Index c = 0; c < X_.columns(); c += products_.most_columns) {
       const Index columns = std::min<Index>(products_.most_columns, X_.columns() - c);
       TileTask<Scalar> task;
-      task.entries = entries;
+      task.entries = K_.tile_data(tile);
+      task.row_lanes = lanes + c / products_.most_columns * row_lanes_size<Scalar>;
+      task.first = first;
+      task.last = last;
       task.x_columns = X_.block(J) + 64 * c;
       task.x_columns_scale = X_.scale(J) + c;
       task.y_rows = sums_.block(chunk, I) + 64 * c;

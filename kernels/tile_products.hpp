@@ -3,7 +3,6 @@
 #include "kernels/half.hpp"
 #include "kernels/instruction_set.hpp"
 
-#include <array>
 #include <cstddef>
 
 // The innermost loops, one translation unit an instruction set. This header is read by files that are
@@ -22,6 +21,10 @@ struct Multiplier<double> {
   using Type = double;
 };
 
+/// Tile columns whose products with one tile row may be added up in float before they go to double, and for
+/// which X has one scale.
+constexpr int tiles_together = 4;
+
 /// At most 64 rows of 64 entries of a matrix and the pieces of X and Y that they touch. X and Y are in blocks
 /// of 64 rows, one column after the other: entry (i, c) of a block is at 64 c + i. All are aligned to 64
 /// bytes.
@@ -35,25 +38,36 @@ struct TileTask {
   const char* prefetch =
       nullptr;  ///< what will be read soon, as much as this task reads; null: do not fetch ahead
 
-  const Number* x_columns = nullptr;        ///< block of X that belongs to the entries' columns ...
-  const double* x_columns_scale = nullptr;  ///< ... to be multiplied by this, one a column of X
-  double* y_rows = nullptr;                 ///< += entries * x_columns
+  // y_rows += entries x_columns: tasks with the same rows form runs that add up in `row_lanes`.
+  const Number* x_columns = nullptr;
+  const double* x_columns_scale =
+      nullptr;                  ///< what x_columns is to be multiplied by, one a column; the same in a run
+  Number* row_lanes = nullptr;  ///< room for 16 numbers (8 for double) a row and column; kept within a run
+  bool first = true;            ///< begins a run: what is in row_lanes is not read
+  bool last = true;             ///< ends a run: its sums are added to y_rows
+  double* y_rows = nullptr;
 
-  const Number* x_rows = nullptr;  ///< block of X that belongs to the entries' rows
+  // y_columns += entries' x_rows.
+  const Number* x_rows = nullptr;
   const double* x_rows_scale = nullptr;
-  double* y_columns = nullptr;  ///< += entries' * x_rows
+  double* y_columns = nullptr;
 };
 
-/// Functions for 1 ... 4 columns at [columns - 1].
+/// Functions for 1, 2 and 3 columns at [columns - 1]; more do not fit into the registers.
 template <typename Scalar>
 struct TileProducts {
-  static constexpr int most_columns = 4;
+  static constexpr int most_columns = 3;
   using Function = void (*)(const TileTask<Scalar>&);
 
-  std::array<Function, most_columns> both{};        ///< y_rows and y_columns with one read of the entries
-  std::array<Function, most_columns> to_rows{};     ///< y_rows only
-  std::array<Function, most_columns> to_columns{};  ///< y_columns only
+  Function both[most_columns] = {};        ///< y_rows and y_columns with one read of the entries
+  Function to_rows[most_columns] = {};     ///< y_rows only
+  Function to_columns[most_columns] = {};  ///< y_columns only
 };
+
+/// Numbers of row_lanes that the functions use at most.
+template <typename Scalar>
+constexpr int row_lanes_size = TileProducts<Scalar>::most_columns * 64 *
+                               (64 / static_cast<int>(sizeof(typename Multiplier<Scalar>::Type)));
 
 template <typename Scalar>
 TileProducts<Scalar> tile_products(InstructionSet instructions);

@@ -1,93 +1,148 @@
-// The product of one tile, written once for every instruction set. The including file defines, in an unnamed namespace
-// so that nothing of it can be linked elsewhere,
+// The product of one tile, written once for every instruction set. The including file defines, in an unnamed
+// namespace so that nothing of it can be linked elsewhere,
 //
 //   Lanes<double>, Lanes<float>: `Vector` of `width` numbers; zero(), load(), load from Half where float,
-//     broadcast(), store(), multiply_add(a, b, c) = a b + c, and
-//     row_sums(lanes, sums): sums[r] = sum of the width numbers at lanes + r width, 0 <= r < width;
-//   strip_vectors<Number, columns>: how many vectors of a row are worked on together, so that all sums stay in
-//     registers; a divisor of 64 / width.
+//     broadcast(), store(), multiply_add(a, b, c) = a b + c,
+//     row_sums(lanes): a vector whose r-th number is the sum of the width numbers at lanes + r width, and
+//     add_scaled(y, v, s): y[k] += s v[k] in double;
+//   strip_vectors<Number, columns>: how many vectors of a row are worked on together (a divisor of 64 /
+//   width), and strip_rows<Number, columns>: how many rows, so that all sums stay in registers.
+//
+// Every entry is loaded (and converted) once and used for `columns` columns in both directions. The tile is
+// cut into strips of columns. Sums down a strip stay in registers; sums along the rows stay apart by lane in
+// memory (in the first cache) over several tiles, because adding up the lanes of a vector costs as much as a
+// tile's arithmetic. The order of a column's sums does not depend on how many columns there are.
 
 namespace radiosity {
 namespace {
 
 constexpr int block = 64;
 
-/// Every entry is loaded (and converted) once and used for `columns` columns in both directions. Rows go in groups of
-/// one vector's width, so that the sums along rows end in one transposition a group; columns go in strips.
 template <typename Scalar, int columns, bool to_rows, bool to_columns>
-void multiply_tile(const TileTask<Scalar>& task) {
+class TileLoop {
+ public:
+  explicit TileLoop(const TileTask<Scalar>& task)
+      : task_(task), entries_(task.entries), stride_(task.stride) {}
+
+  void run() const {
+    for (int first = 0; first < block; first += strip) multiply_strip(first);
+    if constexpr (to_rows)
+      if (task_.last) add_row_sums();
+  }
+
+ private:
   using Number = typename Multiplier<Scalar>::Type;
   using L = Lanes<Number>;
   using Vector = typename L::Vector;
-  constexpr int width = L::width;
-  constexpr int vectors = strip_vectors<Number, columns>;
-  constexpr int strip = width * vectors;
+  static constexpr int width = L::width;
+  static constexpr int vectors = strip_vectors<Number, columns>;
+  static constexpr int strip = width * vectors;
+  static constexpr int rows_together = strip_rows<Number, columns>;
 
-  alignas(64) Number column_sums[columns * block];
-  alignas(64) Number row_lanes[columns * width * width];
-  if constexpr (to_columns)
-    for (int k = 0; k < columns * block; ++k) column_sums[k] = 0;
-
-  for (int group = 0; group < task.rows; group += width) {
-    const int group_rows = task.rows - group < width ? task.rows - group : width;
-    for (int first = 0; first < block; first += strip) {
-      Vector down[columns][vectors];
-      if constexpr (to_columns)
-        for (int c = 0; c < columns; ++c)
-          for (int v = 0; v < vectors; ++v) down[c][v] = L::load(column_sums + c * block + first + v * width);
-
-      for (int r = 0; r < group_rows; ++r) {
-        const std::ptrdiff_t offset = (group + r) * task.stride + first;
-        Vector entries[vectors];
-        for (int v = 0; v < vectors; ++v) entries[v] = L::load(task.entries + offset + v * width);
-        if (task.prefetch != nullptr)
-          for (int byte = 0; byte < strip * static_cast<int>(sizeof(Scalar)); byte += 64)
-            __builtin_prefetch(task.prefetch + offset * static_cast<std::ptrdiff_t>(sizeof(Scalar)) + byte);
-        for (int c = 0; c < columns; ++c) {
-          if constexpr (to_rows) {
-            Number* lanes = row_lanes + (c * width + r) * width;
-            Vector across = first == 0 ? L::zero() : L::load(lanes);
-            for (int v = 0; v < vectors; ++v)
-              across = L::multiply_add(entries[v], L::load(task.x_columns + c * block + first + v * width), across);
-            L::store(lanes, across);
-          }
-          if constexpr (to_columns) {
-            const Vector x = L::broadcast(task.x_rows[c * block + group + r]);
-            for (int v = 0; v < vectors; ++v) down[c][v] = L::multiply_add(entries[v], x, down[c][v]);
-          }
-        }
-      }
-
-      if constexpr (to_columns)
-        for (int c = 0; c < columns; ++c)
-          for (int v = 0; v < vectors; ++v) L::store(column_sums + c * block + first + v * width, down[c][v]);
-    }
-
-    if constexpr (to_rows)
-      for (int c = 0; c < columns; ++c) {
-        Number* lanes = row_lanes + c * width * width;
-        for (int k = group_rows * width; k < width * width; ++k) lanes[k] = 0;
-        alignas(64) Number sums[width];
-        L::row_sums(lanes, sums);
-        double* y = task.y_rows + c * block + group;
-        for (int r = 0; r < width; ++r) y[r] += task.x_columns_scale[c] * static_cast<double>(sums[r]);
-      }
+  /// All rows, `strip` columns wide from column `first`.
+  [[gnu::always_inline]] inline void multiply_strip(int first) const {
+    const int rows = task_.rows;
+    const bool fresh = task_.first && first == 0;
+    Vector down[columns][vectors];
+#pragma GCC unroll 8
+    for (int c = 0; c < columns; ++c)
+#pragma GCC unroll 8
+      for (int v = 0; v < vectors; ++v) down[c][v] = L::zero();
+    int r = 0;
+    for (; r + rows_together <= rows; r += rows_together) multiply_rows<rows_together>(r, first, fresh, down);
+    for (; r < rows; ++r) multiply_rows<1>(r, first, fresh, down);
+    if constexpr (to_columns)
+#pragma GCC unroll 8
+      for (int c = 0; c < columns; ++c)
+#pragma GCC unroll 8
+        for (int v = 0; v < vectors; ++v)
+          L::add_scaled(task_.y_columns + c * block + first + v * width, down[c][v], task_.x_rows_scale[c]);
   }
 
-  if constexpr (to_columns)
+  /// `count` rows side by side, which share the loads of X.
+  template <int count>
+  [[gnu::always_inline]] inline void multiply_rows(int r, int first, bool fresh,
+                                                   Vector (&down)[columns][vectors]) const {
+    const Scalar* entries = entries_ + r * stride_ + first;
+    fetch_ahead<count>(r * stride_ + first);
+    Vector across[columns][count];
+    Vector x_rows[columns][count];
+#pragma GCC unroll 8
     for (int c = 0; c < columns; ++c)
-      for (int k = 0; k < block; ++k)
-        task.y_columns[c * block + k] += task.x_rows_scale[c] * static_cast<double>(column_sums[c * block + k]);
+#pragma GCC unroll 8
+      for (int k = 0; k < count; ++k) {
+        if constexpr (to_rows) across[c][k] = fresh ? L::zero() : L::load(lanes(c, r + k));
+        if constexpr (to_columns) x_rows[c][k] = L::broadcast(task_.x_rows[c * block + r + k]);
+      }
+#pragma GCC unroll 8
+    for (int v = 0; v < vectors; ++v) {
+      Vector entry[count];
+#pragma GCC unroll 8
+      for (int k = 0; k < count; ++k) entry[k] = L::load(entries + k * stride_ + v * width);
+#pragma GCC unroll 8
+      for (int c = 0; c < columns; ++c) {
+        if constexpr (to_rows) {
+          const Vector x = L::load(task_.x_columns + c * block + first + v * width);
+#pragma GCC unroll 8
+          for (int k = 0; k < count; ++k) across[c][k] = L::multiply_add(entry[k], x, across[c][k]);
+        }
+        if constexpr (to_columns)
+#pragma GCC unroll 8
+          for (int k = 0; k < count; ++k) down[c][v] = L::multiply_add(entry[k], x_rows[c][k], down[c][v]);
+      }
+    }
+    if constexpr (to_rows)
+#pragma GCC unroll 8
+      for (int c = 0; c < columns; ++c)
+#pragma GCC unroll 8
+        for (int k = 0; k < count; ++k) L::store(lanes(c, r + k), across[c][k]);
+  }
+
+  template <int count>
+  [[gnu::always_inline]] inline void fetch_ahead(std::ptrdiff_t offset) const {
+    const char* ahead = task_.prefetch;
+    if (ahead == nullptr) return;
+#pragma GCC unroll 8
+    for (int k = 0; k < count; ++k)
+#pragma GCC unroll 8
+      for (int byte = 0; byte < strip * static_cast<int>(sizeof(Scalar)); byte += 64)
+        __builtin_prefetch(ahead + (offset + k * stride_) * static_cast<std::ptrdiff_t>(sizeof(Scalar)) +
+                           byte);
+  }
+
+  Number* lanes(int column, int row) const {
+    return task_.row_lanes + (column * block + row) * width;
+  }
+
+  void add_row_sums() const {
+    const int whole_rows = (task_.rows + width - 1) / width * width;
+    for (int c = 0; c < columns; ++c) {
+      for (int r = task_.rows; r < whole_rows; ++r) L::store(lanes(c, r), L::zero());
+      for (int r = 0; r < whole_rows; r += width)
+        L::add_scaled(task_.y_rows + c * block + r, L::row_sums(lanes(c, r)), task_.x_columns_scale[c]);
+    }
+  }
+
+  const TileTask<Scalar>& task_;
+  const Scalar* entries_;
+  std::ptrdiff_t stride_;
+};
+
+template <typename Scalar, int columns, bool to_rows, bool to_columns>
+void multiply_tile(const TileTask<Scalar>& task) {
+  TileLoop<Scalar, columns, to_rows, to_columns>(task).run();
 }
 
 template <typename Scalar>
 void get_products(TileProducts<Scalar>& products) {
-  products.both = {multiply_tile<Scalar, 1, true, true>, multiply_tile<Scalar, 2, true, true>,
-                   multiply_tile<Scalar, 3, true, true>, multiply_tile<Scalar, 4, true, true>};
-  products.to_rows = {multiply_tile<Scalar, 1, true, false>, multiply_tile<Scalar, 2, true, false>,
-                      multiply_tile<Scalar, 3, true, false>, multiply_tile<Scalar, 4, true, false>};
-  products.to_columns = {multiply_tile<Scalar, 1, false, true>, multiply_tile<Scalar, 2, false, true>,
-                         multiply_tile<Scalar, 3, false, true>, multiply_tile<Scalar, 4, false, true>};
+  const TileProducts<Scalar> all = {
+      {multiply_tile<Scalar, 1, true, true>, multiply_tile<Scalar, 2, true, true>,
+       multiply_tile<Scalar, 3, true, true>},
+      {multiply_tile<Scalar, 1, true, false>, multiply_tile<Scalar, 2, true, false>,
+       multiply_tile<Scalar, 3, true, false>},
+      {multiply_tile<Scalar, 1, false, true>, multiply_tile<Scalar, 2, false, true>,
+       multiply_tile<Scalar, 3, false, true>}};
+  products = all;
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ struct Lanes<double> {
   static Vector load(const double* from) { return _mm512_load_pd(from); }
   static void store(double* to, Vector vector) { _mm512_store_pd(to, vector); }
   static Vector multiply_add(Vector a, Vector b, Vector c) { return _mm512_fmadd_pd(a, b, c); }
+  static void add_scaled(double* y, Vector vector, double scale) {
+    store(y, multiply_add(vector, broadcast(scale), load(y)));
+  }
 
   static Vector sums_of_two(const double* lanes) {  // rows 0 1 | 0 1 | 0 1 | 0 1
     const Vector row0 = load(lanes);
@@ -27,10 +30,10 @@ struct Lanes<double> {
   static Vector add_quarters(Vector a, Vector b) {  // a0+a1, a2+a3, b0+b1, b2+b3 in quarters of a vector
     return _mm512_add_pd(_mm512_shuffle_f64x2(a, b, 0x88), _mm512_shuffle_f64x2(a, b, 0xdd));
   }
-  static void row_sums(const double* lanes, double* sums) {
+  static Vector row_sums(const double* lanes) {
     const Vector first = add_quarters(sums_of_two(lanes), sums_of_two(lanes + 16));
     const Vector second = add_quarters(sums_of_two(lanes + 32), sums_of_two(lanes + 48));
-    store(sums, add_quarters(first, second));
+    return add_quarters(first, second);
   }
 };
 
@@ -46,6 +49,10 @@ struct Lanes<float> {
   }
   static void store(float* to, Vector vector) { _mm512_store_ps(to, vector); }
   static Vector multiply_add(Vector a, Vector b, Vector c) { return _mm512_fmadd_ps(a, b, c); }
+  static void add_scaled(double* y, Vector vector, double scale) {
+    Lanes<double>::add_scaled(y, _mm512_cvtps_pd(_mm512_castps512_ps256(vector)), scale);
+    Lanes<double>::add_scaled(y + 8, _mm512_cvtps_pd(_mm512_extractf32x8_ps(vector, 1)), scale);
+  }
 
   static Vector sums_of_two(const float* lanes) {  // rows 0 1 0 1 in each quarter
     const Vector row0 = load(lanes);
@@ -61,15 +68,19 @@ struct Lanes<float> {
   static Vector add_quarters(Vector a, Vector b) {  // a0+a1, a2+a3, b0+b1, b2+b3 in quarters of a vector
     return _mm512_add_ps(_mm512_shuffle_f32x4(a, b, 0x88), _mm512_shuffle_f32x4(a, b, 0xdd));
   }
-  static void row_sums(const float* lanes, float* sums) {
+  static Vector row_sums(const float* lanes) {
     const Vector first = add_quarters(sums_of_four(lanes), sums_of_four(lanes + 64));
     const Vector second = add_quarters(sums_of_four(lanes + 128), sums_of_four(lanes + 192));
-    store(sums, add_quarters(first, second));
+    return add_quarters(first, second);
   }
 };
 
+// 32 registers: vectors x columns sums down, rows x columns sums across and as many broadcasts, entries, one
+// of X.
 template <typename Number, int columns>
 constexpr int strip_vectors = 4;
+template <typename Number, int columns>
+constexpr int strip_rows = columns <= 2 ? 4 : 2;
 
 }  // namespace
 }  // namespace radiosity

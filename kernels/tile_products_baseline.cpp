@@ -6,55 +6,51 @@
 namespace radiosity {
 namespace {
 
-/// Plain arithmetic on short arrays, which a compiler turns into whatever every processor of the target has.
+// Vectors of 16 bytes in the language extension that GCC and Clang share: whatever every processor of the
+// target has.
+template <typename Number>
+struct Sixteen {
+  typedef Number Bytes __attribute__((vector_size(16)));
+};
+
 template <typename Number>
 struct Lanes {
-  static constexpr int width = 4;
-  struct Vector {
-    Number lane[width];
-  };
+  static constexpr int width = 16 / static_cast<int>(sizeof(Number));
+  using Vector = typename Sixteen<Number>::Bytes;
 
-  static Vector zero() { return broadcast(0); }
-  static Vector broadcast(Number number) { return {{number, number, number, number}}; }
-  static Vector load(const Number* from) {
-    Vector result;
-    std::memcpy(&result, from, sizeof result);
-    return result;
+  static Vector zero() { return Vector{}; }
+  static Vector broadcast(Number number) { return zero() + number; }
+  static Vector load(const Number* from) { return *reinterpret_cast<const Vector*>(from); }
+  static void store(Number* to, Vector vector) { *reinterpret_cast<Vector*>(to) = vector; }
+  static Vector multiply_add(Vector a, Vector b, Vector c) { return a * b + c; }
+  static void add_scaled(double* y, Vector vector, double scale) {
+    for (int k = 0; k < width; ++k) y[k] += scale * static_cast<double>(vector[k]);
   }
-  static Vector load(const Half* from) {
-    Vector result;
-    for (int k = 0; k < width; ++k) result.lane[k] = stored_half(from[k]);
-    return result;
-  }
-  static void store(Number* to, const Vector& vector) { std::memcpy(to, &vector, sizeof vector); }
-  static Vector multiply_add(const Vector& a, const Vector& b, const Vector& c) {
-    Vector result;
-    for (int k = 0; k < width; ++k) result.lane[k] = a.lane[k] * b.lane[k] + c.lane[k];
-    return result;
-  }
-  static void row_sums(const Number* lanes, Number* sums) {
+  static Vector row_sums(const Number* lanes) {
+    Vector sums;
     for (int r = 0; r < width; ++r) {
       const Number* row = lanes + r * width;
-      sums[r] = (row[0] + row[1]) + (row[2] + row[3]);
+      sums[r] = width == 2 ? row[0] + row[1] : (row[0] + row[1]) + (row[width - 2] + row[width - 1]);
     }
+    return sums;
   }
 
   /// to_float without its branch: stored matrices hold no infinity and no NaN.
-  static float stored_half(Half half) {
-    const std::uint32_t sign = static_cast<std::uint32_t>(half.bits & 0x8000) << 16;
-    std::uint32_t word = static_cast<std::uint32_t>(half.bits & 0x7fff) << 13;
-    float value;
-    std::memcpy(&value, &word, sizeof value);
-    value *= 0x1p112f;
-    std::memcpy(&word, &value, sizeof word);
-    word |= sign;
-    std::memcpy(&value, &word, sizeof value);
-    return value;
+  static Vector load(const Half* from) {
+    using Words = typename Sixteen<std::uint32_t>::Bytes;
+    typedef std::uint16_t Halves __attribute__((vector_size(8)));
+    Halves halves;
+    std::memcpy(&halves, from, sizeof halves);
+    const Words words = __builtin_convertvector(halves, Words);
+    const Vector magnitude = reinterpret_cast<Vector>((words & 0x7fffu) << 13) * 0x1p112f;
+    return reinterpret_cast<Vector>(reinterpret_cast<Words>(magnitude) | ((words & 0x8000u) << 16));
   }
 };
 
 template <typename Number, int columns>
-constexpr int strip_vectors = 2;
+constexpr int strip_vectors = columns == 1 ? 4 : 2;
+template <typename Number, int columns>
+constexpr int strip_rows = columns <= 2 ? 2 : 1;
 
 }  // namespace
 }  // namespace radiosity
