@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstdint>
@@ -36,6 +37,14 @@ struct Camera {
   double vertical_field_of_view = 39.3077;  ///< degrees
 };
 
+/// Where a face reaches under what stands on it (a floor under a block), the covered part is no surface
+/// (scene/contacts.hpp). Whether patches and topology leave it out:
+enum class Contacts {
+  when_subdivided,  ///< only where faces are cut into patches anyway; else each input face stays one patch
+  always,           ///< the scene's description counts on it
+  never             ///< every face is taken as it is
+};
+
 /// What a file or a built-in name describes: coarse faces with materials and groups, before any subdivision.
 struct Scene {
   std::string name;
@@ -46,6 +55,7 @@ struct Scene {
   std::optional<Camera> camera;
   std::vector<std::string> notes;  ///< what the importer changed or dropped, one sentence each
   bool box_like = false;           ///< every face a rectangle to be cut into m x m quads (cube)
+  Contacts contacts = Contacts::when_subdivided;
 };
 
 /// Corner `k` (0 <= k < corner_count) of a face.
@@ -56,19 +66,23 @@ inline const Vector3& corner(const Scene& scene, const Face& face, int k) {
 /// Area vector of a face: its length is the area, its direction the front normal.
 Vector3 area_vector(const Scene& scene, const Face& face);
 
-/// Every triangle or quad with its front and its back: adds a reversed twin to each face (option --two-sided).
+/// Length of the diagonal of the bounding box of all vertices; 0 without vertices.
+double diagonal(const Scene& scene);
+
+/// Every triangle or quad with its front and its back: adds a reversed twin to each face (option
+/// --two-sided). Contacts are cut first where the scene says so, for a twin would hide them.
 Scene two_sided(const Scene& scene);
 
 /// How the surface is connected.
 struct Topology {
-  bool closed = false;       ///< the oriented faces have no boundary (T-junctions are allowed)
-  double volume = 0;         ///< signed; negative where the fronts look into an enclosed space
-  bool enclosure = false;    ///< closed and looking inwards: light cannot leave, rows of F can sum to 1
-  bool convex = false;       ///< every vertex on or in front of every face: nothing can block a ray
+  bool closed = false;     ///< the oriented faces have no boundary (T-junctions are allowed)
+  double volume = 0;       ///< signed; negative where the fronts look into an enclosed space
+  bool enclosure = false;  ///< closed and looking inwards: light cannot leave, rows of F can sum to 1
+  bool convex = false;     ///< every vertex on or in front of every face: nothing can block a ray
 };
 
-/// Determines how a scene is connected. Edges cancel as oriented intervals on their carrier lines, so that a face edge may be
-/// met by several shorter ones.
+/// Determines how a scene is connected. Edges cancel as oriented intervals on their carrier lines, so that a
+/// face edge may be met by several shorter ones.
 Topology topology(const Scene& scene);
 
 }  // namespace radiosity
