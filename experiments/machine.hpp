@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+namespace radiosity {
+
+/// What a timing was measured on.
+struct Machine {
+  std::string cpu;                 ///< the processor's model name
+  int threads = 0;                 ///< in force for parallel loops
+  double read_bandwidth_gb_s = 0;  ///< 1e9 bytes a second, see measure_read_bandwidth
+  double load = 0;                 ///< the system's load average of the last minute: above 0 means company
+};
+
+/// Reads the description of this machine and measures its bandwidth; takes about 0.3 s.
+Machine measure_machine();
+
+/// Largest rate at which all threads together read a buffer that no cache holds (256 MB), in 1e9 bytes a
+/// second: the limit of every operator that is larger than the caches. Passes over the buffer until `seconds`
+/// are over.
+double measure_read_bandwidth(double seconds = 0.2);
+
+}  // namespace radiosity
