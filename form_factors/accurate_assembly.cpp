@@ -1,5 +1,4 @@
 #include "form_factors/form_factor_methods.hpp"
-
 #include "foundation/parallel.hpp"
 
 #include <algorithm>
@@ -30,10 +29,13 @@ class TilePattern {
 
   void add(std::size_t first, std::size_t second) {
     for (const Index a : tiles_[first])
-      for (const Index b : tiles_[second]) present_[static_cast<std::size_t>(std::min(a, b) * rows_ + std::max(a, b))] = 1;
+      for (const Index b : tiles_[second])
+        present_[static_cast<std::size_t>(std::min(a, b) * rows_ + std::max(a, b))] = 1;
   }
 
-  bool operator()(Index row, Index column) const { return present_[static_cast<std::size_t>(row * rows_ + column)] != 0; }
+  bool operator()(Index row, Index column) const {
+    return present_[static_cast<std::size_t>(row * rows_ + column)] != 0;
+  }
 
  private:
   Index rows_;
@@ -53,11 +55,12 @@ void evaluate_row(const PairExchange& exchange, std::size_t own_number, Symmetri
   const auto& clusters = geometry.clusters();
   const PatchCluster& own = clusters[own_number];
   ClusterExchange result;
+  ExchangeWorkspace workspace = exchange.make_workspace();
   for (std::size_t b = own_number; b < clusters.size(); ++b) {
-    const auto pair = exchange.relate(own, clusters[b]);
+    const auto pair = exchange.relate(own, clusters[b], workspace);
     if (pair.nothing) continue;
     for (int i = own.begin; i < own.end; ++i) {
-      exchange.evaluate(i, pair, i + 1, result);
+      exchange.evaluate(i, pair, i + 1, workspace, result);
       row.rays += result.rays;
       for (int l = 0; l < clusters[b].end - clusters[b].begin; ++l) {
         const int j = clusters[b].begin + l;
@@ -105,7 +108,8 @@ AssembledKernel assemble_accurate(const PatchMesh& mesh, const PairExchange& exc
 
   AssembledKernel result;
   for (const ClusterRow& row : rows) result.rays += row.rays;
-  result.group_variance = variance_between_groups(rows, geometry, static_cast<Index>(mesh.scene->groups.size()));
+  result.group_variance =
+      variance_between_groups(rows, geometry, static_cast<Index>(mesh.scene->groups.size()));
   result.kernel = std::make_shared<SymmetricTiles<double>>(kernel->without_zero_tiles());
   return result;
 }

@@ -28,7 +28,8 @@ void scale(SymmetricTiles<double>& kernel, const Eigen::VectorXd& d) {
     for (Index tile = kernel.row_begin(tile_row); tile < kernel.row_begin(tile_row + 1); ++tile) {
       double* const entries = kernel.tile_data(tile);
       const Index first_row = tile_row * size, first_col = kernel.tile_column(tile) * size;
-      const Index rows = std::min(size, kernel.size() - first_row), cols = std::min(size, kernel.size() - first_col);
+      const Index rows = std::min(size, kernel.size() - first_row),
+                  cols = std::min(size, kernel.size() - first_col);
       for (Index r = 0; r < rows; ++r)
         for (Index c = 0; c < cols; ++c) entries[r * size + c] *= d[first_row + r] * d[first_col + c];
     }
@@ -62,9 +63,9 @@ ClosureResult close_symmetric(SymmetricTiles<double>& kernel, const Eigen::Vecto
       break;
     }
     if (deviation <= kDone) break;
-    without_gain = deviation < 0.5 * best ? 0 : without_gain + 1;
+    without_gain = deviation < 0.99 * best ? 0 : without_gain + 1;
     best = std::min(best, deviation);
-    if (best <= kExists && without_gain > 8) break;  // rounding is reached
+    if (best <= kExists && without_gain > 5) break;  // rounding is reached
     for (Index i = 0; i < n; ++i)
       if (target[i] > 0) d[i] = std::sqrt(d[i] * target[i] / reached[i]);
   }
@@ -73,7 +74,8 @@ ClosureResult close_symmetric(SymmetricTiles<double>& kernel, const Eigen::Vecto
   if (!exists) {
     result.kind = "energy-removing";
     result.note = fmt::format(
-        "no symmetric scaling of F reaches the exposed fractions (deviation {:.1e} after {} sweeps, factors {:.2g} to "
+        "no symmetric scaling of F reaches the exposed fractions (deviation {:.1e} after {} sweeps, factors "
+        "{:.2g} to "
         "{:.2g}); rows were only scaled down",
         deviation, result.sweeps, d.minCoeff(), d.maxCoeff());
     for (Index i = 0; i < n; ++i)

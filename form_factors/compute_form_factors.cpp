@@ -20,9 +20,12 @@ void check(const FormFactorOptions& options) {
 
 std::string method_name(FormFactorMethod method) {
   switch (method) {
-    case FormFactorMethod::one_ray: return "one-ray";
-    case FormFactorMethod::gather: return "gather";
-    case FormFactorMethod::accurate: break;
+    case FormFactorMethod::one_ray:
+      return "one-ray";
+    case FormFactorMethod::gather:
+      return "gather";
+    case FormFactorMethod::accurate:
+      break;
   }
   return "accurate";
 }
@@ -50,7 +53,8 @@ FormFactors compute_form_factors(std::shared_ptr<const PatchMesh> mesh, const Fo
   FormFactors result;
   result.mesh = mesh;
   const PairExchange exchange(*mesh, options.tolerance, options.seed);
-  const Exposure exposure = measure_exposure(*mesh, exchange.geometry(), exchange.occluders(), options.seed, monitor);
+  const Exposure exposure =
+      measure_exposure(*mesh, exchange.geometry(), exchange.occluders(), options.seed, monitor);
   result.exposed = exposure.exposed;
   result.quality.method = method_name(options.method);
   result.quality.probe_rays = exposure.probe_rays;
@@ -59,14 +63,15 @@ FormFactors compute_form_factors(std::shared_ptr<const PatchMesh> mesh, const Fo
 
   std::shared_ptr<SymmetricTiles<double>> kernel;
   if (options.method == FormFactorMethod::gather) {
-    GatheredFactors gathered = gather_form_factors(*mesh, exchange.geometry(),
-                                                   static_cast<std::uint32_t>(options.gather_rays), options.seed, monitor);
+    GatheredFactors gathered = gather_form_factors(
+        *mesh, exchange.geometry(), static_cast<std::uint32_t>(options.gather_rays), options.seed, monitor);
     result.unsymmetric = gathered.factors;
     result.quality.rays = gathered.rays;
   } else {
-    AssembledKernel assembled = options.method == FormFactorMethod::one_ray
-                                    ? assemble_one_ray(*mesh, exchange.geometry(), exchange.occluders(), monitor)
-                                    : assemble_accurate(*mesh, exchange, monitor);
+    AssembledKernel assembled =
+        options.method == FormFactorMethod::one_ray
+            ? assemble_one_ray(*mesh, exchange.geometry(), exchange.occluders(), monitor)
+            : assemble_accurate(*mesh, exchange, monitor);
     kernel = assembled.kernel;
     result.kernel = kernel;
     result.quality.rays = assembled.rays;

@@ -4,11 +4,13 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cstddef>
+#include <span>
 
 namespace radiosity {
 
-/// A planar convex polygon of a few corners, counter-clockwise seen from its front. A patch has 3 or 4 corners; a patch
-/// clipped by one plane has at most one more.
+/// A planar convex polygon of a few corners, counter-clockwise seen from its front. A patch has 3 or 4
+/// corners; a patch clipped by one plane has at most one more.
 class ConvexPolygon {
  public:
   static constexpr int max_corners = 8;
@@ -17,6 +19,10 @@ class ConvexPolygon {
   const Eigen::Vector3d& operator[](int k) const { return corners_[static_cast<std::size_t>(k)]; }
   Eigen::Vector3d& operator[](int k) { return corners_[static_cast<std::size_t>(k)]; }
   const Eigen::Vector3d& next(int k) const { return (*this)[k + 1 == count_ ? 0 : k + 1]; }
+
+  std::span<const Eigen::Vector3d> corners() const {
+    return {corners_.data(), static_cast<std::size_t>(count_)};
+  }
 
   /// Corners beyond max_corners are ignored: no patch has that many.
   void add(const Eigen::Vector3d& corner) {
@@ -43,8 +49,8 @@ struct Plane {
   double height(const Eigen::Vector3d& point) const { return normal.dot(point) - offset; }
 };
 
-/// The part of a polygon in front of a plane; corners within `slack` of the plane count as on it. Empty (fewer than 3 corners)
-/// if nothing is in front.
+/// The part of a polygon in front of a plane; corners within `slack` of the plane count as on it. Empty
+/// (fewer than 3 corners) if nothing is in front.
 inline ConvexPolygon clip(const ConvexPolygon& polygon, const Plane& plane, double slack) {
   ConvexPolygon front;
   bool anything = false;
@@ -54,7 +60,8 @@ inline ConvexPolygon clip(const ConvexPolygon& polygon, const Plane& plane, doub
     const double height_here = plane.height(here), height_there = plane.height(there);
     if (height_here > slack) anything = true;
     if (height_here >= -slack) front.add(here);
-    const bool crosses = (height_here > slack && height_there < -slack) || (height_here < -slack && height_there > slack);
+    const bool crosses =
+        (height_here > slack && height_there < -slack) || (height_here < -slack && height_there > slack);
     if (crosses) front.add(here + (there - here) * (height_here / (height_here - height_there)));
   }
   return anything ? front : ConvexPolygon{};

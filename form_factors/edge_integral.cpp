@@ -13,7 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-double x_log_abs(double x) { return x == 0 ? 0 : x * std::log(std::abs(x)); }
+double x_log_abs(double x) {
+  return x == 0 ? 0 : x * std::log(std::abs(x));
+}
 
 // The integral of ln |p - b(t)| over an edge b of unit direction v and the given length.
 double point_edge_integral(const Vector3d& p, const Vector3d& b0, const Vector3d& v, double length) {
@@ -24,8 +26,8 @@ double point_edge_integral(const Vector3d& p, const Vector3d& b0, const Vector3d
   if (height_squared < 1e-30) return x_log_abs(high) - high - x_log_abs(low) + low;
   const double height = std::sqrt(height_squared);
   const double angle = std::atan2(height * (high - low), height_squared + low * high);
-  return 0.5 * high * std::log(high * high + height_squared) - 0.5 * low * std::log(low * low + height_squared) -
-         (high - low) + height * angle;
+  return 0.5 * high * std::log(high * high + height_squared) -
+         0.5 * low * std::log(low * low + height_squared) - (high - low) + height * angle;
 }
 
 // Second antiderivative in z of ln sqrt(z^2 + h^2).
@@ -36,8 +38,8 @@ double parallel_antiderivative(double z, double h) {
   return h == 0 ? logarithm : logarithm + h * z * std::atan(z / h);
 }
 
-double parallel_edges(const Vector3d& a0, double a_length, const Vector3d& b0, double b_length, const Vector3d& u,
-                      double cosine) {
+double parallel_edges(const Vector3d& a0, double a_length, const Vector3d& b0, double b_length,
+                      const Vector3d& u, double cosine) {
   const Vector3d w = b0 - a0;
   const double h = w.cross(u).norm();
   const double start = w.dot(u), end = start + (cosine > 0 ? b_length : -b_length);
@@ -47,12 +49,16 @@ double parallel_edges(const Vector3d& a0, double a_length, const Vector3d& b0, d
          parallel_antiderivative(a_length - high, distance) - parallel_antiderivative(-low, distance);
 }
 
-// Edges whose carrier lines meet: with the origin at the meeting point, ln r is a homogeneous function plus a constant,
-// div((s, t) ln r) = 2 ln r + 1, and the divergence theorem leaves four single integrals.
-double meeting_edges(const Vector3d& meeting, const Vector3d& u, double s0, double s1, const Vector3d& v, double t0,
-                     double t1) {
-  const auto over_b = [&](double s) { return point_edge_integral(meeting + s * u, meeting + t0 * v, v, t1 - t0); };
-  const auto over_a = [&](double t) { return point_edge_integral(meeting + t * v, meeting + s0 * u, u, s1 - s0); };
+// Edges whose carrier lines meet: with the origin at the meeting point, ln r is a homogeneous function plus a
+// constant, div((s, t) ln r) = 2 ln r + 1, and the divergence theorem leaves four single integrals.
+double meeting_edges(const Vector3d& meeting, const Vector3d& u, double s0, double s1, const Vector3d& v,
+                     double t0, double t1) {
+  const auto over_b = [&](double s) {
+    return point_edge_integral(meeting + s * u, meeting + t0 * v, v, t1 - t0);
+  };
+  const auto over_a = [&](double t) {
+    return point_edge_integral(meeting + t * v, meeting + s0 * u, u, s1 - s0);
+  };
   double sum = -(s1 - s0) * (t1 - t0);
   if (s1 != 0) sum += s1 * over_b(s1);
   if (s0 != 0) sum -= s0 * over_b(s0);
@@ -71,8 +77,9 @@ struct InnerEdge {
   double length;
 };
 
-// Gauss-Legendre over a piece of the outer edge. The inner integral is analytic within the distance d from the piece's
-// midpoint to the inner edge, so with q = d / half length the error falls as (q + sqrt(q^2 - 1))^(-2 points).
+// Gauss-Legendre over a piece of the outer edge. The inner integral is analytic within the distance d from
+// the piece's midpoint to the inner edge, so with q = d / half length the error falls as (q + sqrt(q^2 -
+// 1))^(-2 points).
 double outer_quadrature(const Vector3d& a0, const Vector3d& u, double s0, double s1, const InnerEdge& b,
                         double tolerance, int depth) {
   static const std::array<GaussLegendre, 5> rules = {GaussLegendre(4), GaussLegendre(6), GaussLegendre(8),

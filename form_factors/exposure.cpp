@@ -1,7 +1,7 @@
 #include "form_factors/exposure.hpp"
 
-#include "foundation/parallel.hpp"
 #include "form_factors/pair_sampler.hpp"
+#include "foundation/parallel.hpp"
 
 #include <array>
 #include <atomic>
@@ -14,8 +14,8 @@ struct Count {
   std::uint64_t rays = 0, fronts = 0, backs = 0, gone = 0;
 };
 
-void probe(int patch, std::uint32_t begin, std::uint32_t end, const PairSampler& sampler, const Occluders& occluders,
-           const PairSampler::Shift& shift, Count& count) {
+void probe(int patch, std::uint32_t begin, std::uint32_t end, const PairSampler& sampler,
+           const Occluders& occluders, const PairSampler::Shift& shift, Count& count) {
   RayPacket packet;
   std::array<RayHit, RayPacket::size> hits;
   for (std::uint32_t k = begin; k < end; ++k) {
@@ -48,14 +48,17 @@ Exposure measure_exposure(const PatchMesh& mesh, const PatchGeometry& geometry, 
   std::atomic<std::size_t> done{0};
   parallel_for(counts.size(), [&](std::size_t i) {
     const auto patch = static_cast<int>(i);
-    const auto shift = PairSampler::random_shift(seed ^ 0x70726f6265ULL, static_cast<std::uint64_t>(geometry.to_mesh(patch)));
+    const auto shift = PairSampler::random_shift(seed ^ 0x70726f6265ULL,
+                                                 static_cast<std::uint64_t>(geometry.to_mesh(patch)));
     Count& count = counts[i];
     probe(patch, 0, few_packets, sampler, occluders, shift, count);
     const bool all_arrived = count.backs == 0 && (count.gone == 0 || enclosure);
     if (!all_arrived) probe(patch, few_packets, many_packets, sampler, occluders, shift, count);
     const std::uint64_t arrived = count.fronts + (enclosure ? count.gone : 0);
-    exposure.exposed[geometry.to_mesh(patch)] = static_cast<double>(arrived) / static_cast<double>(count.rays);
-    if (++done % 256 == 0) monitor.checkpoint("probing exposure", static_cast<double>(done) / static_cast<double>(n));
+    exposure.exposed[geometry.to_mesh(patch)] =
+        static_cast<double>(arrived) / static_cast<double>(count.rays);
+    if (++done % 256 == 0)
+      monitor.checkpoint("probing exposure", static_cast<double>(done) / static_cast<double>(n));
   });
   for (const Count& count : counts) {
     exposure.probe_rays += count.rays;

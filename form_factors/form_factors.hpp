@@ -16,31 +16,33 @@ namespace radiosity {
 
 /// How the form factors of a scene came about and how good they are (keys of the JSON's "form_factors").
 struct FormFactorQuality {
-  std::string method;         ///< accurate, one-ray or gather
-  std::string closure;        ///< none, symmetric, or energy-removing where symmetric scaling does not exist
+  std::string method;   ///< accurate, one-ray or gather
+  std::string closure;  ///< none, symmetric, or energy-removing where symmetric scaling does not exist
   std::uint64_t rays = 0;
   double seconds = 0;
   double cpu_seconds = 0;
-  double row_sum_min = 0;     ///< of sum_j F_ij over live patches, after the closure
+  double row_sum_min = 0;  ///< of sum_j F_ij over live patches, after the closure
   double row_sum_max = 0;
-  double row_sum_rms = 0;     ///< root mean square of sum_j F_ij - exposed fraction, over live patches
-  double reciprocity_max = 0; ///< max |A_i F_ij - A_j F_ji| / max(A_i F_ij, A_j F_ji)
-  std::uint64_t back_hits = 0;  ///< probe rays that ended on the back of a face
-  std::uint64_t leaks = 0;      ///< probe rays that left an enclosure
-  std::uint64_t probe_rays = 0; ///< cosine-weighted rays from every patch behind the two counts
-  std::string closure_note;     ///< why the closure asked for was not used; empty otherwise
+  double row_sum_rms = 0;        ///< root mean square of sum_j F_ij - exposed fraction, over live patches
+  double reciprocity_max = 0;    ///< max |A_i F_ij - A_j F_ji| / max(A_i F_ij, A_j F_ji)
+  std::uint64_t back_hits = 0;   ///< probe rays that ended on the back of a face
+  std::uint64_t leaks = 0;       ///< probe rays that left an enclosure
+  std::uint64_t probe_rays = 0;  ///< cosine-weighted rays from every patch behind the two counts
+  std::string closure_note;      ///< why the closure asked for was not used; empty otherwise
 };
 
-/// F of a scene, assembled: reciprocity makes K = A^{1/2} F A^{-1/2} symmetric, K_ij = A_i F_ij / sqrt(A_i A_j), so that
-/// one albedo-free kernel serves every colour and reflectance; T = R A^{-1/2} K A^{1/2}.
-/// Only `gather` has no such K: its F is kept as a full matrix.
+/// F of a scene, assembled: reciprocity makes K = A^{1/2} F A^{-1/2} symmetric, K_ij = A_i F_ij / sqrt(A_i
+/// A_j), so that one albedo-free kernel serves every colour and reflectance; T = R A^{-1/2} K A^{1/2}. Only
+/// `gather` has no such K: its F is kept as a full matrix.
 struct FormFactors {
   std::shared_ptr<const PatchMesh> mesh;
-  std::shared_ptr<const SymmetricTiles<double>> kernel;      ///< K; null for gather
-  std::shared_ptr<const RowMajorMatrix<double>> unsymmetric; ///< F itself; null unless gather
-  Eigen::VectorXd exposed;  ///< n, fraction of the hemisphere of each patch that ends on fronts; 0 marks a patch that is not live
+  std::shared_ptr<const SymmetricTiles<double>> kernel;       ///< K; null for gather
+  std::shared_ptr<const RowMajorMatrix<double>> unsymmetric;  ///< F itself; null unless gather
+  Eigen::VectorXd exposed;  ///< n, fraction of the hemisphere of each patch that ends on fronts; 0 marks a
+                            ///< patch that is not live
   FormFactorQuality quality;
-  /// groups x groups: estimated standard error of each F between groups, before a closure; empty if not known.
+  /// groups x groups: estimated standard error of each F between groups, before a closure; empty if not
+  /// known.
   Eigen::MatrixXd group_standard_error;
 
   Index patch_count() const { return mesh->patch_count(); }

@@ -1,7 +1,6 @@
 #include "form_factors/form_factor_methods.hpp"
-
-#include "foundation/parallel.hpp"
 #include "form_factors/pair_sampler.hpp"
+#include "foundation/parallel.hpp"
 
 #include <array>
 #include <atomic>
@@ -9,8 +8,8 @@
 
 namespace radiosity {
 
-GatheredFactors gather_form_factors(const PatchMesh& mesh, const PatchGeometry& geometry, std::uint32_t rays_per_patch,
-                                    std::uint64_t seed, Monitor& monitor) {
+GatheredFactors gather_form_factors(const PatchMesh& mesh, const PatchGeometry& geometry,
+                                    std::uint32_t rays_per_patch, std::uint64_t seed, Monitor& monitor) {
   const auto n = static_cast<std::size_t>(geometry.patch_count());
   std::vector<ConvexPolygon> patches;
   for (std::size_t i = 0; i < n; ++i) patches.push_back(geometry.polygon(static_cast<int>(i)));
@@ -24,7 +23,8 @@ GatheredFactors gather_form_factors(const PatchMesh& mesh, const PatchGeometry& 
   std::atomic<std::size_t> done{0};
   parallel_for(n, [&](std::size_t i) {
     const Index row_number = geometry.to_mesh(static_cast<int>(i));
-    const auto shift = PairSampler::random_shift(seed ^ 0x676174686572ULL, static_cast<std::uint64_t>(row_number));
+    const auto shift =
+        PairSampler::random_shift(seed ^ 0x676174686572ULL, static_cast<std::uint64_t>(row_number));
     double* const row = result.factors->row(row_number);
     RayPacket packet;
     std::array<RayHit, RayPacket::size> hits;
@@ -38,7 +38,8 @@ GatheredFactors gather_form_factors(const PatchMesh& mesh, const PatchGeometry& 
       }
     }
     for (std::size_t j = 0; j < n; ++j) row[j] /= static_cast<double>(rays[i]);
-    if (++done % 64 == 0) monitor.checkpoint("form factors (gather)", static_cast<double>(done) / static_cast<double>(n));
+    if (++done % 64 == 0)
+      monitor.checkpoint("form factors (gather)", static_cast<double>(done) / static_cast<double>(n));
   });
   for (const std::uint64_t count : rays) result.rays += count;
   return result;

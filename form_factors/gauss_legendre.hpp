@@ -6,7 +6,8 @@
 
 namespace radiosity {
 
-/// Nodes in (-1, 1) and weights (sum 2) of the Gauss-Legendre rule with `count` points: exact to degree 2 count - 1.
+/// Nodes in (-1, 1) and weights (sum 2) of the Gauss-Legendre rule with `count` points: exact to degree 2
+/// count - 1.
 struct GaussLegendre {
   std::vector<double> node;
   std::vector<double> weight;

@@ -82,7 +82,8 @@ Occluders::Occluders(const std::vector<ConvexPolygon>& faces) : tracer_(std::mak
         vertices[12 * f + static_cast<std::size_t>(3 * k + axis)] = static_cast<float>(face[k][axis]);
     for (int t = 0; t + 2 < face.corner_count(); ++t)
       for (unsigned c = 0; c < 3; ++c)
-        indices[6 * f + 3 * static_cast<std::size_t>(t) + c] = first + (c == 0 ? 0U : static_cast<unsigned>(t) + c);
+        indices[6 * f + 3 * static_cast<std::size_t>(t) + c] =
+            first + (c == 0 ? 0U : static_cast<unsigned>(t) + c);
     const Eigen::Vector3d area = face.area_vector();
     face_normals_.push_back(area.norm() > 0 ? Eigen::Vector3f(area.normalized().cast<float>())
                                             : Eigen::Vector3f(Eigen::Vector3f::Zero()));
@@ -112,7 +113,7 @@ void Occluders::find_blockers(const std::vector<ConvexPolygon>& faces) {
       behind |= height < -kOnHull;
       if (in_front && behind) break;
     }
-    if (in_front && behind) blockers_.push_back(face);
+    if (in_front && behind) blockers_.emplace_back(face);
   }
 }
 

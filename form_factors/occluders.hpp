@@ -3,6 +3,7 @@
 #include "form_factors/convex_polygon.hpp"
 #include "form_factors/patch_geometry.hpp"
 #include "form_factors/ray_packet.hpp"
+#include "form_factors/shaft.hpp"
 
 #include <memory>
 #include <vector>
@@ -15,7 +16,8 @@ struct RayHit {
   bool front = false;  ///< the front of that face
 };
 
-/// The coarse faces of a scene, in the scaled scene, in their order (an empty polygon where a face has no area).
+/// The coarse faces of a scene, in the scaled scene, in their order (an empty polygon where a face has no
+/// area).
 std::vector<ConvexPolygon> coarse_faces(const PatchMesh& mesh, const PatchGeometry& geometry);
 
 /// Faces as obstacles: for rays (Embree) and for proofs about pairs of patches.
@@ -28,7 +30,7 @@ class Occluders {
 
   /// Faces that can stand between two points of the scene: a face on the convex hull cannot.
   /// Empty: no ray is ever needed.
-  const std::vector<ConvexPolygon>& blockers() const { return blockers_; }
+  const std::vector<Blocker>& blockers() const { return blockers_; }
 
   /// Sets packet.blocked for each of the packet's rays, from origin to target.
   void trace(RayPacket& packet) const;
@@ -36,13 +38,12 @@ class Occluders {
   /// First hits of the packet's rays, from origin in the direction of target and beyond.
   void first_hits(const RayPacket& packet, RayHit* hits) const;
 
-
  private:
   struct Tracer;
   void find_blockers(const std::vector<ConvexPolygon>& faces);
 
   std::unique_ptr<Tracer> tracer_;
-  std::vector<ConvexPolygon> blockers_;
+  std::vector<Blocker> blockers_;
   std::vector<Eigen::Vector3f> face_normals_;
 };
 

@@ -1,5 +1,4 @@
 #include "form_factors/form_factor_methods.hpp"
-
 #include "foundation/parallel.hpp"
 
 #include <algorithm>
@@ -31,13 +30,14 @@ Vector3d sample_point(const ConvexPolygon& polygon) {
 
 }  // namespace
 
-AssembledKernel assemble_one_ray(const PatchMesh& mesh, const PatchGeometry& geometry, const Occluders& occluders,
-                                 Monitor& monitor) {
+AssembledKernel assemble_one_ray(const PatchMesh& mesh, const PatchGeometry& geometry,
+                                 const Occluders& occluders, Monitor& monitor) {
   const int n = geometry.patch_count();
   std::vector<Vector3d> points;
   for (int i = 0; i < n; ++i) points.push_back(sample_point(geometry.polygon(i)));
   AssembledKernel result;
-  result.kernel = std::make_shared<SymmetricTiles<double>>(mesh.patch_count(), [](Index, Index) { return true; });
+  result.kernel =
+      std::make_shared<SymmetricTiles<double>>(mesh.patch_count(), [](Index, Index) { return true; });
   SymmetricTiles<double>& kernel = *result.kernel;
   std::vector<std::uint64_t> rays(static_cast<std::size_t>(n), 0);
   std::atomic<int> done{0};
@@ -64,7 +64,8 @@ AssembledKernel assemble_one_ray(const PatchMesh& mesh, const PatchGeometry& geo
       const double leaving = d.dot(geometry.plane(i).normal), arriving = -d.dot(geometry.plane(j).normal);
       if (leaving <= PatchGeometry::slack || arriving <= PatchGeometry::slack) continue;
       const double square = d.squaredNorm();
-      const Vector3d end = points[static_cast<std::size_t>(j)] + double{PairSampler::stand_off} * geometry.plane(j).normal;
+      const Vector3d end =
+          points[static_cast<std::size_t>(j)] + double{PairSampler::stand_off} * geometry.plane(j).normal;
       value[waiting] = leaving * arriving / (std::numbers::pi * square * square) *
                        std::sqrt(geometry.area(i) * geometry.area(j));
       partner[waiting] = j;

@@ -9,20 +9,14 @@
 namespace radiosity {
 namespace {
 
-// With more faces that could come between, a proof costs more than the rays that it saves.
-constexpr std::size_t kMostBlockers = 512;
-constexpr std::size_t kMostCandidates = 24;
-
 // Quadrature is cheap: keep its error two digits below that of the sampling.
-double quadrature_tolerance(double tolerance) { return std::clamp(0.01 * tolerance, 1e-14, 1e-6); }
+double quadrature_tolerance(double tolerance) {
+  return std::clamp(0.01 * tolerance, 1e-14, 1e-6);
+}
 
 bool all_behind(const std::vector<Eigen::Vector3d>& points, const Plane& plane) {
   return std::all_of(points.begin(), points.end(),
                      [&](const Eigen::Vector3d& p) { return plane.height(p) <= PatchGeometry::slack; });
-}
-
-ShaftEnd end_of(const PatchCluster& cluster) {
-  return {cluster.hull, cluster.coplanar ? &cluster.plane : nullptr};
 }
 
 }  // namespace
@@ -30,68 +24,62 @@ ShaftEnd end_of(const PatchCluster& cluster) {
 PairExchange::PairExchange(const PatchMesh& mesh, double tolerance, std::uint64_t seed)
     : geometry_(mesh),
       occluders_(coarse_faces(mesh, geometry_)),
+      sides_(geometry_, occluders_.blockers()),
       unobstructed_(geometry_, quadrature_tolerance(tolerance)),
       visibility_(geometry_, occluders_, seed),
       tolerance_(tolerance) {}
 
 bool PairExchange::may_exchange(const PatchCluster& own, const PatchCluster& other) const {
-  return !(own.coplanar && all_behind(other.hull, own.plane)) && !(other.coplanar && all_behind(own.hull, other.plane));
+  return !(own.coplanar && all_behind(other.hull, own.plane)) &&
+         !(other.coplanar && all_behind(own.hull, other.plane));
 }
 
-PairExchange::ClusterPair PairExchange::relate(const PatchCluster& own, const PatchCluster& other) const {
+ExchangeWorkspace PairExchange::make_workspace() const {
+  return {std::vector<Eigen::Vector3d>(occluders_.blockers().size(), Eigen::Vector3d::Zero())};
+}
+
+PairExchange::ClusterPair PairExchange::relate(const PatchCluster& own, const PatchCluster& other,
+                                               ExchangeWorkspace& workspace) const {
   ClusterPair pair;
   pair.other = &other;
   pair.nothing = !may_exchange(own, other);
   if (pair.nothing) return pair;
-  const auto& blockers = occluders_.blockers();
-  pair.proofs = blockers.size() <= kMostBlockers;
+  pair.proofs = !sides_.empty();
   if (!pair.proofs) return pair;
-  const ShaftEnd first = end_of(own), second = end_of(other);
-  for (std::size_t b = 0; b < blockers.size(); ++b) {
-    if (misses_shaft(blockers[b], first, second)) continue;
-    if (blocks_shaft(blockers[b], first, second)) {
-      pair.nothing = true;
-      return pair;
-    }
-    pair.candidates.push_back(static_cast<int>(b));
-  }
-  pair.proofs = pair.candidates.size() <= kMostCandidates;
+  pair.candidates = between(sides_.cluster(own), sides_.cluster(other));
+  pair.nothing = narrow(own.hull, other.hull, pair.candidates, workspace) == Shaft::blocked;
   return pair;
 }
 
-bool PairExchange::proved_visible(int i, int j, const ClusterPair& pair, bool& blocked) const {
-  blocked = false;
-  if (!pair.proofs) return false;
-  std::array<Eigen::Vector3d, 4> own, other;
-  const ConvexPolygon& p = geometry_.polygon(i);
-  const ConvexPolygon& q = geometry_.polygon(j);
-  for (int k = 0; k < p.corner_count(); ++k) own[static_cast<std::size_t>(k)] = p[k];
-  for (int k = 0; k < q.corner_count(); ++k) other[static_cast<std::size_t>(k)] = q[k];
-  const ShaftEnd first{{own.data(), static_cast<std::size_t>(p.corner_count())}, &geometry_.plane(i)};
-  const ShaftEnd second{{other.data(), static_cast<std::size_t>(q.corner_count())}, &geometry_.plane(j)};
-  bool clear = true;
-  for (const int b : pair.candidates) {
-    const ConvexPolygon& blocker = occluders_.blockers()[static_cast<std::size_t>(b)];
-    if (misses_shaft(blocker, first, second)) continue;
-    clear = false;
-    if (blocks_shaft(blocker, first, second)) {
-      blocked = true;
-      return false;
-    }
-  }
-  return clear;
+// Keeps the candidates that may come between two ends.
+PairExchange::Shaft PairExchange::narrow(const ShaftEnd& first, const ShaftEnd& second,
+                                         BlockerSet& candidates, ExchangeWorkspace& workspace) const {
+  BlockerSet left;
+  bool blocked = false;
+  candidates.for_each([&](std::size_t b) {
+    const Blocker& blocker = occluders_.blockers()[b];
+    if (misses_shaft(blocker, first, second, workspace.separating[b])) return true;
+    left.add(b);
+    blocked = blocks_shaft(blocker, first, second);
+    return !blocked;
+  });
+  candidates = left;
+  if (blocked) return Shaft::blocked;
+  return left.empty() ? Shaft::clear : Shaft::unknown;
 }
 
-// With groups g and h of the patches, sum_(i in g, j in h) A_i^2 var F_ij <= tolerance^2 A_g^2 (and the same from h's
-// side) holds if var K_ij <= tolerance^2 min(A_g / A_h, A_h / A_g) for every pair: a bound that each pair can check alone.
-// The other ratio does the same for F_ij and F_ji. Half the tolerance, since the error is itself only estimated.
+// With groups g and h of the patches, sum_(i in g, j in h) A_i^2 var F_ij <= tolerance^2 A_g^2 (and the same
+// from h's side) holds if var K_ij <= tolerance^2 min(A_g / A_h, A_h / A_g) for every pair: a bound that each
+// pair can check alone. The other ratio does the same for F_ij and F_ji. Half the tolerance, since the error
+// is itself only estimated.
 double PairExchange::wanted_kernel_error(int i, int j) const {
   const double areas = geometry_.area(i) / geometry_.area(j);
   const double groups = geometry_.group_area(geometry_.group(i)) / geometry_.group_area(geometry_.group(j));
   return 0.5 * tolerance_ * std::sqrt(std::min({areas, 1 / areas, groups, 1 / groups}));
 }
 
-void PairExchange::evaluate(int i, const ClusterPair& pair, int first, ClusterExchange& result) const {
+void PairExchange::evaluate(int i, const ClusterPair& pair, int first, ExchangeWorkspace& workspace,
+                            ClusterExchange& result) const {
   const PatchCluster& cluster = *pair.other;
   const int count = cluster.end - cluster.begin;
   result.rays = 0;
@@ -103,14 +91,39 @@ void PairExchange::evaluate(int i, const ClusterPair& pair, int first, ClusterEx
   unobstructed_.with_cluster(i, cluster, result.kernel);
   for (int l = 0; l < count; ++l) {
     const int j = cluster.begin + l;
+    result.kernel[l] = j < first ? 0 : result.kernel[l] / std::sqrt(geometry_.area(i) * geometry_.area(j));
+  }
+  if (!pair.proofs || !pair.candidates.empty()) apply_visibility(i, pair, workspace, result);
+}
+
+void PairExchange::apply_visibility(int i, const ClusterPair& pair, ExchangeWorkspace& workspace,
+                                    ClusterExchange& result) const {
+  const PatchCluster& cluster = *pair.other;
+  const int count = cluster.end - cluster.begin;
+  const std::span<const Eigen::Vector3d> own = geometry_.polygon(i).corners();
+  Shaft shaft = Shaft::unknown;
+  BlockerSet near;
+  if (pair.proofs) {
+    near = between(sides_.patch(i), sides_.cluster(cluster));
+    near &= pair.candidates;
+    shaft = narrow(own, cluster.hull, near, workspace);
+  }
+  if (shaft == Shaft::clear) return;
+  if (shaft == Shaft::blocked) {
+    std::fill(result.kernel, result.kernel + count, 0.0);
+    return;
+  }
+  for (int l = 0; l < count; ++l) {
+    const int j = cluster.begin + l;
     double& kernel = result.kernel[l];
-    if (j < first) kernel = 0;
     if (kernel == 0) continue;
-    kernel /= std::sqrt(geometry_.area(i) * geometry_.area(j));
-    if (pair.proofs && pair.candidates.empty()) continue;
-    bool blocked = false;
-    if (proved_visible(i, j, pair, blocked)) continue;
-    if (blocked) {
+    if (pair.proofs) {
+      BlockerSet last = between(sides_.patch(i), sides_.patch(j));
+      last &= near;
+      shaft = narrow(own, geometry_.polygon(j).corners(), last, workspace);
+    }
+    if (shaft == Shaft::clear) continue;
+    if (shaft == Shaft::blocked) {
       kernel = 0;
       continue;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "form_factors/blocker_sides.hpp"
 #include "form_factors/form_factors.hpp"
 #include "form_factors/occluders.hpp"
 #include "form_factors/patch_geometry.hpp"
@@ -7,20 +8,27 @@
 #include "form_factors/visible_fraction.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace radiosity {
 
-/// Exchanges of one patch with a cluster: A_i F_ij / sqrt(A_i A_j), that is K_ij, and what their sampling left open.
+/// Room for the work of one thread; carries separating planes from one pair to the next.
+struct ExchangeWorkspace {
+  std::vector<Eigen::Vector3d> separating;  ///< per blocker
+};
+
+/// Exchanges of one patch with a cluster: A_i F_ij / sqrt(A_i A_j), that is K_ij, and what their sampling
+/// left open.
 struct ClusterExchange {
   double kernel[PairHeights::capacity];
   double variance[PairHeights::capacity];  ///< of kernel; 0 where nothing was sampled
   std::uint64_t rays = 0;
 };
 
-/// The accurate method for any pair of patches: the unobstructed exchange, times the visible fraction where neither visibility nor
-/// blockage can be proved. Each K_ij depends on the pair, the seed and the tolerance alone, so that rows on demand
-/// and the assembled kernel agree.
+/// The accurate method for any pair of patches: the unobstructed exchange, times the visible fraction where
+/// neither visibility nor blockage can be proved. Each K_ij depends on the pair, the seed and the tolerance
+/// alone, so that rows on demand and the assembled kernel agree.
 class PairExchange {
  public:
   /// tolerance: estimated standard error of each F_ij and of each F between groups.
@@ -29,27 +37,37 @@ class PairExchange {
   const PatchGeometry& geometry() const { return geometry_; }
   const Occluders& occluders() const { return occluders_; }
 
+  ExchangeWorkspace make_workspace() const;
+
   /// What is known of two clusters before any pair of theirs is looked at.
   struct ClusterPair {
     const PatchCluster* other = nullptr;
-    bool nothing = false;       ///< they face away from each other, or one face hides all of one from all of the other
-    bool proofs = true;         ///< candidates holds every face that may come between; false: too many, rays decide
-    std::vector<int> candidates;
+    bool nothing =
+        false;  ///< they face away from each other, or one face hides all of one from all of the other
+    bool proofs = true;  ///< candidates holds every face that may come between; false: too many, rays decide
+    BlockerSet candidates;
   };
-  ClusterPair relate(const PatchCluster& own, const PatchCluster& other) const;
+  ClusterPair relate(const PatchCluster& own, const PatchCluster& other, ExchangeWorkspace& workspace) const;
 
   /// The cheap part of relate: false only if the clusters face away from each other.
   bool may_exchange(const PatchCluster& own, const PatchCluster& other) const;
 
-  /// K_ij of patch i (of the pair's own cluster) with the other cluster's patches j >= first; 0 for j < first.
-  void evaluate(int i, const ClusterPair& pair, int first, ClusterExchange& result) const;
+  /// K_ij of patch i (of the pair's own cluster) with the other cluster's patches j >= first; 0 for j <
+  /// first.
+  void evaluate(int i, const ClusterPair& pair, int first, ExchangeWorkspace& workspace,
+                ClusterExchange& result) const;
 
  private:
-  bool proved_visible(int i, int j, const ClusterPair& pair, bool& blocked) const;
+  enum class Shaft { clear, blocked, unknown };
+  Shaft narrow(const ShaftEnd& first, const ShaftEnd& second, BlockerSet& candidates,
+               ExchangeWorkspace& workspace) const;
+  void apply_visibility(int i, const ClusterPair& pair, ExchangeWorkspace& workspace,
+                        ClusterExchange& result) const;
   double wanted_kernel_error(int i, int j) const;
 
   PatchGeometry geometry_;
   Occluders occluders_;
+  BlockerSideTable sides_;
   UnobstructedExchange unobstructed_;
   VisibilitySampling visibility_;
   double tolerance_;

@@ -29,7 +29,8 @@ std::vector<Vector3d> bounding_box_corners(const std::vector<Vector3d>& points) 
   for (const Vector3d& point : points) low = low.cwiseMin(point), high = high.cwiseMax(point);
   std::vector<Vector3d> corners;
   for (int k = 0; k < 8; ++k)
-    corners.emplace_back((k & 1) ? high.x() : low.x(), (k & 2) ? high.y() : low.y(), (k & 4) ? high.z() : low.z());
+    corners.emplace_back((k & 1) ? high.x() : low.x(), (k & 2) ? high.y() : low.y(),
+                         (k & 4) ? high.z() : low.z());
   return corners;
 }
 
@@ -38,7 +39,8 @@ std::vector<Vector3d> bounding_box_corners(const std::vector<Vector3d>& points) 
 PatchGeometry::PatchGeometry(const PatchMesh& mesh) {
   Vector3d low = Vector3d::Constant(1e300), high = -low;
   for (const Vector3d& vertex : mesh.vertices) low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);
-  for (const Vector3d& vertex : mesh.scene->vertices) low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);
+  for (const Vector3d& vertex : mesh.scene->vertices)
+    low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);
   origin_ = 0.5 * (low + high);
   const double extent = (high - low).maxCoeff();
   scale_ = extent > 0 ? 1 / extent : 1;
@@ -75,8 +77,8 @@ PatchGeometry::PatchGeometry(const PatchMesh& mesh) {
   quadrature_ = std::make_unique<QuadraturePoints>(polygons_, planes_);
 }
 
-// Patches of one face with equally many corners make coplanar clusters; faces with few patches are gathered from the
-// whole scene, by place.
+// Patches of one face with equally many corners make coplanar clusters; faces with few patches are gathered
+// from the whole scene, by place.
 void PatchGeometry::order_patches(const PatchMesh& mesh) {
   std::map<std::pair<int, int>, std::vector<int>> by_face;
   for (Index i = 0; i < mesh.patch_count(); ++i) {
@@ -99,7 +101,8 @@ void PatchGeometry::order_patches(const PatchMesh& mesh) {
 void PatchGeometry::add_clusters(const PatchMesh& mesh, std::span<int> patches, bool coplanar) {
   if (patches.size() > cluster_size) {
     Vector3d low = Vector3d::Constant(1e300), high = -low;
-    for (const int i : patches) low = low.cwiseMin(mesh.centroid.col(i)), high = high.cwiseMax(mesh.centroid.col(i));
+    for (const int i : patches)
+      low = low.cwiseMin(mesh.centroid.col(i)), high = high.cwiseMax(mesh.centroid.col(i));
     Index axis = 0;
     (high - low).maxCoeff(&axis);
     const auto middle = patches.begin() + static_cast<std::ptrdiff_t>(patches.size() / 2);
@@ -112,6 +115,7 @@ void PatchGeometry::add_clusters(const PatchMesh& mesh, std::span<int> patches, 
   }
   std::sort(patches.begin(), patches.end());
   PatchCluster cluster;
+  cluster.number = static_cast<int>(clusters_.size());
   cluster.begin = static_cast<int>(to_mesh_.size());
   to_mesh_.insert(to_mesh_.end(), patches.begin(), patches.end());
   cluster.end = static_cast<int>(to_mesh_.size());
@@ -125,9 +129,11 @@ void PatchGeometry::finish_clusters() {
     for (int i = cluster.begin; i < cluster.end; ++i)
       for (int k = 0; k < polygon(i).corner_count(); ++k) points.push_back(polygon(i)[k]);
     cluster.plane = plane(cluster.begin);
-    cluster.hull = cluster.coplanar ? bounding_rectangle(points, cluster.plane.normal) : bounding_box_corners(points);
+    cluster.hull =
+        cluster.coplanar ? bounding_rectangle(points, cluster.plane.normal) : bounding_box_corners(points);
     cluster.center = Vector3d::Zero();
-    for (const Vector3d& point : cluster.hull) cluster.center += point / static_cast<double>(cluster.hull.size());
+    for (const Vector3d& point : cluster.hull)
+      cluster.center += point / static_cast<double>(cluster.hull.size());
     for (const Vector3d& point : cluster.hull)
       cluster.radius = std::max(cluster.radius, (point - cluster.center).norm());
   }

@@ -14,9 +14,10 @@
 
 namespace radiosity {
 
-/// Patches that lie close together: the unit of culling and of vector loops. Its patches are begin ... end - 1 in the
-/// order of a PatchGeometry and all have the same number of corners.
+/// Patches that lie close together: the unit of culling and of vector loops. Its patches are begin ... end -
+/// 1 in the order of a PatchGeometry and all have the same number of corners.
 struct PatchCluster {
+  int number = 0;  ///< place in PatchGeometry::clusters()
   int begin = 0;
   int end = 0;
   bool coplanar = false;  ///< all patches lie in `plane` and face the same way
@@ -26,8 +27,8 @@ struct PatchCluster {
   double radius = 0;
 };
 
-/// The patches as form factor computations want them: recentred and scaled to a box of side 1 (form factors do not
-/// depend on either, float32 rays do), ordered cluster by cluster, in flat arrays.
+/// The patches as form factor computations want them: recentred and scaled to a box of side 1 (form factors
+/// do not depend on either, float32 rays do), ordered cluster by cluster, in flat arrays.
 class PatchGeometry {
  public:
   explicit PatchGeometry(const PatchMesh& mesh);

@@ -27,15 +27,17 @@ std::vector<WeightedPoint> quad_points(const ConvexPolygon& quad, int m) {
       const Vector3d along_v = (1 - u) * (quad[3] - quad[0]) + u * (quad[2] - quad[1]);
       const double weight =
           0.25 * rule.weight[static_cast<std::size_t>(a)] * rule.weight[static_cast<std::size_t>(b)];
-      points.push_back({(1 - u) * (1 - v) * quad[0] + u * (1 - v) * quad[1] + u * v * quad[2] + (1 - u) * v * quad[3],
-                        weight * along_u.cross(along_v).norm()});
+      points.push_back(
+          {(1 - u) * (1 - v) * quad[0] + u * (1 - v) * quad[1] + u * v * quad[2] + (1 - u) * v * quad[3],
+           weight * along_u.cross(along_v).norm()});
     }
   }
   return points;
 }
 
-// Symmetric rules of degree 4, 6 and 8 by D. A. Dunavant, "High degree efficient symmetrical Gaussian quadrature
-// rules for the triangle", 1985: orbits of barycentric coordinates (a, b, 1 - a - b) with the weight of each point.
+// Symmetric rules of degree 4, 6 and 8 by D. A. Dunavant, "High degree efficient symmetrical Gaussian
+// quadrature rules for the triangle", 1985: orbits of barycentric coordinates (a, b, 1 - a - b) with the
+// weight of each point.
 struct Orbit {
   int size;  // 1, 3 (a = b) or 6
   double a, b, weight;
@@ -81,7 +83,7 @@ std::vector<WeightedPoint> points_of(const ConvexPolygon& polygon, int order) {
 }  // namespace
 
 QuadraturePoints::QuadraturePoints(std::span<const ConvexPolygon> polygons, std::span<const Plane> planes)
-    : loops_(exchange_loops(best_instruction_set())) {
+    : loops_(vector_loops(best_instruction_set())) {
   const auto n = polygons.size();
   std::array<int, orders> most{};
   point_count_.resize(n);

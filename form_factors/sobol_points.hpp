@@ -5,14 +5,16 @@
 
 namespace radiosity {
 
-/// The first four dimensions of Sobol's sequence (direction numbers of Joe and Kuo, 2008) as 32-bit fractions.
-/// Points 16 k ... 16 k + 15 form a net, so that even one packet of rays is spread evenly over both patches.
+/// The first four dimensions of Sobol's sequence (direction numbers of Joe and Kuo, 2008) as 32-bit
+/// fractions. Points 16 k ... 16 k + 15 form a net, so that even one packet of rays is spread evenly over
+/// both patches.
 class SobolPoints {
  public:
   static constexpr int dimensions = 4;
 
   SobolPoints() {
-    constexpr std::array<std::array<std::uint32_t, 3>, dimensions> initial = {{{1, 1, 1}, {1, 0, 0}, {1, 3, 0}, {1, 3, 1}}};
+    constexpr std::array<std::array<std::uint32_t, 3>, dimensions> initial = {
+        {{1, 1, 1}, {1, 0, 0}, {1, 3, 0}, {1, 3, 1}}};
     constexpr std::array<int, dimensions> degree = {0, 1, 2, 3};
     constexpr std::array<std::uint32_t, dimensions> polynomial = {0, 0, 1, 1};
     for (std::size_t d = 0; d < dimensions; ++d) {

@@ -61,7 +61,8 @@ void UnobstructedExchange::with_cluster(int i, const PatchCluster& cluster, doub
     if (std::find(way.begin(), way.begin() + count, wanted) == way.begin() + count) continue;
     geometry_.quadrature().exchange(order, i, cluster.begin, cluster.end, values.data());
     for (int l = 0; l < count; ++l)
-      if (way[static_cast<std::size_t>(l)] == wanted) exchange[l] = std::max(0.0, values[static_cast<std::size_t>(l)]);
+      if (way[static_cast<std::size_t>(l)] == wanted)
+        exchange[l] = std::max(0.0, values[static_cast<std::size_t>(l)]);
   }
   for (int l = 0; l < count; ++l)
     if (way[static_cast<std::size_t>(l)] == 1) exchange[l] = by_contour(i, cluster.begin + l);

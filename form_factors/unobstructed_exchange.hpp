@@ -6,14 +6,16 @@
 
 namespace radiosity {
 
-/// A_i F_ij with nothing in between, in the scaled scene: product quadrature where patches are well apart, the contour
-/// integral where they are close, touch, or reach behind each other's plane (after clipping by the horizon).
+/// A_i F_ij with nothing in between, in the scaled scene: product quadrature where patches are well apart,
+/// the contour integral where they are close, touch, or reach behind each other's plane (after clipping by
+/// the horizon).
 class UnobstructedExchange {
  public:
   /// `tolerance` is relative to A_i A_j / (pi d^2); geometry must outlive this.
   UnobstructedExchange(const PatchGeometry& geometry, double tolerance);
 
-  /// exchange[j - cluster.begin] for all patches j of a cluster; exactly 0 for pairs that do not face each other.
+  /// exchange[j - cluster.begin] for all patches j of a cluster; exactly 0 for pairs that do not face each
+  /// other.
   void with_cluster(int i, const PatchCluster& cluster, double* exchange) const;
 
   /// One pair, however close, by clipping and the contour integral.

@@ -32,7 +32,8 @@ double standard_variance(const std::array<Tally, kReplicates>& tallies, double f
 
 }  // namespace
 
-VisibilitySampling::VisibilitySampling(const PatchGeometry& geometry, const Occluders& occluders, std::uint64_t seed)
+VisibilitySampling::VisibilitySampling(const PatchGeometry& geometry, const Occluders& occluders,
+                                       std::uint64_t seed)
     : geometry_(geometry), occluders_(occluders), sampler_(geometry), seed_(seed) {}
 
 VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted) const {
@@ -46,24 +47,22 @@ VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted) cons
   std::array<Tally, kReplicates> tallies;
   VisibleFraction fraction;
   RayPacket packet;
-  std::array<float, 16> weight;
+  alignas(64) float weight[RayPacket::size];
   std::uint32_t done = 0, goal = static_cast<std::uint32_t>(least_rays / (16 * kReplicates));
   while (true) {
     for (; done < goal; ++done) {
       for (std::size_t r = 0; r < kReplicates; ++r) {
         sampler_.fill(first, second, done, shifts[r], packet, weight);
         occluders_.trace(packet);
-        for (std::size_t l = 0; l < RayPacket::size; ++l) {
-          tallies[r].all += weight[l];
-          if (!packet.blocked[l]) tallies[r].visible += weight[l];
-        }
+        sampler_.tally(packet, weight, tallies[r].visible, tallies[r].all);
       }
     }
     fraction.rays = std::uint64_t{16} * kReplicates * done;
     double visible = 0, all = 0;
     for (const Tally& tally : tallies) visible += tally.visible, all += tally.all;
     fraction.value = all > 0 ? visible / all : 1;
-    fraction.variance = all > 0 ? standard_variance(tallies, fraction.value, static_cast<double>(fraction.rays)) : 0.25;
+    fraction.variance =
+        all > 0 ? standard_variance(tallies, fraction.value, static_cast<double>(fraction.rays)) : 0.25;
     if (fraction.variance <= wanted * wanted || fraction.rays >= most_rays) return fraction;
     goal *= 2;
   }

@@ -16,13 +16,15 @@ struct VisibleFraction {
 
 /// Samples pairs until the estimated standard error is small enough.
 ///
-/// Four independent shifts of one Sobol sequence run side by side; their spread is the error estimate. Where all rays agree,
-/// the estimate is that of (hits + 1) / (rays + 2), so that a small hole is not taken for none before enough rays say so.
+/// Four independent shifts of one Sobol sequence run side by side; their spread is the error estimate. Where
+/// all rays agree, the estimate is that of (hits + 1) / (rays + 2), so that a small hole is not taken for
+/// none before enough rays say so.
 class VisibilitySampling {
  public:
   VisibilitySampling(const PatchGeometry& geometry, const Occluders& occluders, std::uint64_t seed);
 
-  /// At least least_rays, at most most_rays; stops once the standard error is <= wanted. Depends on (i, j) and the seed alone.
+  /// At least least_rays, at most most_rays; stops once the standard error is <= wanted. Depends on (i, j)
+  /// and the seed alone.
   VisibleFraction operator()(int i, int j, double wanted) const;
 
   static constexpr std::uint64_t least_rays = 64;

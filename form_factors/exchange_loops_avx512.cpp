@@ -1,4 +1,0 @@
-#include "form_factors/exchange_loops.hpp"
-
-#define RADIOSITY_LOOPS exchange_loops_avx512
-#include "form_factors/exchange_loops.inc"

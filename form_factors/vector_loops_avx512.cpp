@@ -1,0 +1,4 @@
+#include "form_factors/vector_loops.hpp"
+
+#define RADIOSITY_LOOPS vector_loops_avx512
+#include "form_factors/vector_loops.inc"
