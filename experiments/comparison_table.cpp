@@ -1,0 +1,42 @@
+#include "experiments/comparison.hpp"
+
+#include <fmt/format.h>
+
+namespace radiosity {
+
+namespace {
+
+constexpr const char* row_format = "{:{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>8}  {:>9}  {:>9}  {:>9}\n";
+
+std::string size_text(std::size_t bytes) {
+  const double megabytes = 1e-6 * static_cast<double>(bytes);
+  return fmt::format("{:.{}f}", megabytes, megabytes < 100 ? 2 : 0);
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.1f} us", 1e6 * seconds);
+  if (seconds < 1) return fmt::format("{:.2f} ms", 1e3 * seconds);
+  return fmt::format("{:.2f} s", seconds);
+}
+
+std::string error_text(const std::optional<double>& error) {
+  return error ? fmt::format("{:.2e}", *error) : "-";
+}
+
+}  // namespace
+
+std::string comparison_table(const Comparison& comparison) {
+  std::size_t width = 8;
+  for (const ComparisonResult& result : comparison.results) width = std::max(width, result.spec.size());
+  std::string table = fmt::format(row_format, "operator", width, "MB", "build", "apply", "solve", "products",
+                                  "error T", "error B", "indirect");
+  for (const ComparisonResult& result : comparison.results)
+    table +=
+        fmt::format(row_format, result.spec, width, size_text(result.bytes), time_text(result.build_seconds),
+                    time_text(result.apply.min), time_text(result.solve.min), result.iterations,
+                    error_text(result.errors.operator_frobenius), error_text(result.errors.radiosity_mean),
+                    error_text(result.errors.indirect_mean));
+  return table;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,117 @@
+// The JSON of `compare` and of `form-factors` (architecture.md, "Contracts with the user"): keys stay as they
+// are; a value that does not exist is null.
+
+#include "experiments/comparison.hpp"
+#include "experiments/form_factor_report.hpp"
+#include "foundation/output_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace radiosity {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json scene_json(const PatchMesh& mesh) {
+  std::size_t triangles = 0;
+  for (const Face& face : mesh.scene->faces) triangles += static_cast<std::size_t>(face.corner_count - 2);
+  return {{"name", mesh.scene->name},    {"triangles", triangles},         {"patches", mesh.patch_count()},
+          {"channels", mesh.channels()}, {"closed", mesh.topology.closed}, {"area", mesh.area.sum()}};
+}
+
+Json machine_json(const Machine& machine) {
+  return {{"cpu", machine.cpu},
+          {"threads", machine.threads},
+          {"read_bandwidth_gb_s", machine.read_bandwidth_gb_s},
+          {"load", machine.load}};
+}
+
+Json form_factors_json(const FormFactorQuality& quality) {
+  const bool timed = quality.rays > 0 && quality.seconds > 0;
+  return {{"method", quality.method},
+          {"closure", quality.closure},
+          {"rays", quality.rays},
+          {"seconds", quality.seconds},
+          {"cpu_seconds", quality.cpu_seconds},
+          {"rays_per_second", timed ? Json(static_cast<double>(quality.rays) / quality.seconds) : Json()},
+          {"row_sum_min", quality.row_sum_min},
+          {"row_sum_max", quality.row_sum_max},
+          {"row_sum_rms", quality.row_sum_rms},
+          {"reciprocity_max", quality.reciprocity_max},
+          {"back_hits", quality.back_hits},
+          {"leaks", quality.leaks}};
+}
+
+Json timing_json(const Timing& timing) {
+  return {{"min", timing.min}, {"median", timing.median}};
+}
+
+Json result_json(const ComparisonResult& result) {
+  const ComparisonErrors& errors = result.errors;
+  return {{"operator", result.spec},
+          {"solver", result.solver},
+          {"device", "cpu"},
+          {"renderer", nullptr},               // of a graphics device
+          {"device_difference_max", nullptr},  // from the plain arithmetic of this device
+          {"bytes", result.bytes},
+          {"build_seconds", result.build_seconds},
+          {"apply_seconds", timing_json(result.apply)},
+          {"solve_seconds", timing_json(result.solve)},
+          {"error",
+           {{"operator_frobenius", or_null(errors.operator_frobenius)},
+            {"radiosity_mean", or_null(errors.radiosity_mean)},
+            {"radiosity_max", or_null(errors.radiosity_max)},
+            {"indirect_mean", or_null(errors.indirect_mean)},
+            {"indirect_max", or_null(errors.indirect_max)}}},
+          {"row_sum_min", or_null(result.row_sum_min)},
+          {"row_sum_max", or_null(result.row_sum_max)},
+          {"spectral_radius", or_null(result.spectral_radius)},
+          {"iterations", result.iterations}};
+}
+
+Json matrix_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Index i = 0; i < matrix.rows(); ++i) {
+    const Eigen::VectorXd row = matrix.row(i);
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return rows;
+}
+
+void write_json(const std::filesystem::path& file, const Json& document) {
+  OutputFile output(file);
+  output.stream() << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  output.commit();
+}
+
+}  // namespace
+
+void write_comparison_json(const std::filesystem::path& file, const Comparison& comparison) {
+  Json results = Json::array();
+  for (const ComparisonResult& result : comparison.results) results.push_back(result_json(result));
+  write_json(file, {{"scene", scene_json(*comparison.form_factors.mesh)},
+                    {"machine", machine_json(comparison.machine)},
+                    {"form_factors", form_factors_json(comparison.form_factors.quality)},
+                    {"results", results}});
+}
+
+void write_form_factor_json(const std::filesystem::path& file, const FormFactors& form_factors,
+                            const Machine& machine, const std::optional<GroupFormFactors>& groups) {
+  Json document = {{"scene", scene_json(*form_factors.mesh)},
+                   {"machine", machine_json(machine)},
+                   {"form_factors", form_factors_json(form_factors.quality)}};
+  if (groups) {
+    document["groups"] = groups->names;
+    document["areas"] = std::vector<double>(groups->areas.begin(), groups->areas.end());
+    document["matrix"] = matrix_json(groups->matrix);
+    document["standard_error"] = groups->standard_error ? matrix_json(*groups->standard_error) : Json();
+  }
+  write_json(file, document);
+}
+
+}  // namespace radiosity
