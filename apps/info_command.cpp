@@ -1,0 +1,113 @@
+#include "apps/group_summary.hpp"
+#include "apps/json_objects.hpp"
+#include "apps/memory_need.hpp"
+#include "apps/program.hpp"
+#include "apps/run_options.hpp"
+#include "apps/scene_options.hpp"
+#include "foundation/error.hpp"
+#include "foundation/parallel.hpp"
+#include "scene/built_in.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace radiosity {
+namespace {
+
+struct InfoOptions {
+  SceneOptions scene;
+  RunOptions run;
+  bool list = false;
+  std::filesystem::path json_file;
+};
+
+void print_list(const Program& program) {
+  fmt::print("Built-in scenes\n");
+  for (const BuiltInScene& scene : built_in_scenes()) fmt::print("  {:<20} {}\n", scene.name, scene.summary);
+  fmt::print("\nOperators\n");
+  for (const OperatorEntry& entry : program.operators.entries())
+    fmt::print("  {:<20} {}\n", entry.defaults, entry.summary);
+  fmt::print("\nSolvers\n");
+  for (const SolverEntry& entry : program.solvers.entries())
+    fmt::print("  {:<20} {}\n", entry.defaults, entry.summary);
+}
+
+std::string connectivity_text(const Topology& topology) {
+  if (!topology.closed) return "open";
+  if (!topology.enclosure) return "closed, seen from outside";
+  return topology.convex ? "closed, convex room" : "closed room";
+}
+
+void print_scene(const PatchMesh& mesh, bool quiet) {
+  fmt::print("scene      {}\n", mesh.scene->name);
+  fmt::print("triangles  {}\n", triangle_count(*mesh.scene));
+  fmt::print("patches    {}\n", mesh.patch_count());
+  fmt::print("area       {:.6g}\n", mesh.area.sum());
+  fmt::print("surface    {}\n", connectivity_text(mesh.topology));
+  fmt::print("channels   {}\n", mesh.channels());
+
+  fmt::print("\n{:<24} {:>8} {:>12}   {:<24} {}\n", "group", "patches", "area", "reflectance", "emission");
+  const auto emissions = summarize_groups(mesh, mesh.emission);
+  std::size_t next = 0;
+  for (const GroupSummary& group : summarize_groups(mesh, mesh.reflectance))
+    fmt::print("{:<24} {:>8} {:>12.6g}   {:<24} {}\n", group.name, group.patches, group.area,
+               channel_text(group.mean), channel_text(emissions[next++].mean));
+
+  fmt::print("\nmemory of an operator, at most\n");
+  for (const MemoryNeed& need : memory_needs(mesh))
+    fmt::print("  {:<10} {:>10}\n", need.operator_spec, byte_text(need.bytes));
+  if (!quiet)
+    for (const std::string& note : mesh.notes) fmt::print("note: {}\n", note);
+}
+
+void write_scene_json(const std::filesystem::path& file, const PatchMesh& mesh) {
+  Json scene = scene_json(mesh);
+  scene["surface"] = connectivity_text(mesh.topology);
+  Json groups = Json::array();
+  const auto emissions = summarize_groups(mesh, mesh.emission);
+  std::size_t next = 0;
+  for (const GroupSummary& group : summarize_groups(mesh, mesh.reflectance))
+    groups.push_back({{"name", group.name},
+                      {"patches", group.patches},
+                      {"area", group.area},
+                      {"reflectance", channels_json(group.mean)},
+                      {"emission", channels_json(emissions[next++].mean)}});
+  Json memory = Json::object();
+  for (const MemoryNeed& need : memory_needs(mesh)) memory[need.operator_spec] = need.bytes;
+  write_json(file, {{"scene", scene}, {"groups", groups}, {"memory", memory}, {"notes", mesh.notes}});
+}
+
+void run_info(const InfoOptions& options, const Program& program) {
+  const ThreadLimit limit(options.run.threads);
+  require_device(options.run);
+  if (options.list) {
+    print_list(program);
+    if (options.scene.scene.empty()) return;
+    fmt::print("\n");
+  }
+  const auto mesh = open_mesh(options.scene);
+  if (!options.json_file.empty()) write_scene_json(options.json_file, *mesh);
+  print_scene(*mesh, options.run.quiet);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, const Program& program) {
+  CLI::App* command =
+      app.add_subcommand("info", "what a scene consists of and how much memory its operators take");
+  const auto options = std::make_shared<InfoOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_flag("--list", options->list,
+                    "list the built-in scenes, the operators and the solvers with their defaults");
+  command->add_option("--json", options->json_file, "write the same as JSON")->option_text("FILE");
+  add_run_options(*command, options->run);
+  command->callback([options, &program] { run_info(*options, program); });
+}
+
+}  // namespace radiosity

@@ -1,0 +1,62 @@
+#include "apps/json_objects.hpp"
+
+#include "foundation/output_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace radiosity {
+
+std::size_t triangle_count(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Face& face : scene.faces) count += face.corner_count == 4 ? 2 : 1;
+  return count;
+}
+
+Json scene_json(const PatchMesh& mesh) {
+  return {{"name", mesh.scene->name},       {"triangles", triangle_count(*mesh.scene)},
+          {"patches", mesh.patch_count()},  {"channels", mesh.channels()},
+          {"closed", mesh.topology.closed}, {"area", mesh.area.sum()}};
+}
+
+Json machine_json(const Machine& machine) {
+  return {{"cpu", machine.cpu},
+          {"threads", machine.threads},
+          {"read_bandwidth_gb_s", machine.read_bandwidth_gb_s},
+          {"load", machine.load}};
+}
+
+Json form_factors_json(const FormFactorQuality& quality) {
+  const double rate = quality.seconds > 0 ? static_cast<double>(quality.rays) / quality.seconds : 0;
+  return {{"method", quality.method},
+          {"closure", quality.closure},
+          {"rays", quality.rays},
+          {"seconds", quality.seconds},
+          {"cpu_seconds", quality.cpu_seconds},
+          {"rays_per_second", rate},
+          {"row_sum_min", quality.row_sum_min},
+          {"row_sum_max", quality.row_sum_max},
+          {"row_sum_rms", quality.row_sum_rms},
+          {"reciprocity_max", quality.reciprocity_max},
+          {"back_hits", quality.back_hits},
+          {"leaks", quality.leaks}};
+}
+
+Json channels_json(const Eigen::RowVectorXd& values) {
+  Json list = Json::array();
+  for (Index c = 0; c < values.size(); ++c) list.push_back(values[c]);
+  return list;
+}
+
+Json matrix_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Index i = 0; i < matrix.rows(); ++i) rows.push_back(channels_json(matrix.row(i)));
+  return rows;
+}
+
+void write_json(const std::filesystem::path& file, const Json& value) {
+  OutputFile output(file);
+  output.stream() << value.dump(2) << '\n';
+  output.commit();
+}
+
+}  // namespace radiosity

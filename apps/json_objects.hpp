@@ -1,0 +1,38 @@
+#pragma once
+
+#include "experiments/machine.hpp"
+#include "form_factors/form_factors.hpp"
+#include "scene/patch_mesh.hpp"
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <filesystem>
+
+namespace radiosity {
+
+using Json = nlohmann::ordered_json;
+
+/// Triangles of the coarse faces; a quad counts as two.
+std::size_t triangle_count(const Scene& scene);
+
+/// The "scene" object of every JSON file: name, triangles, patches, channels, closed, area.
+Json scene_json(const PatchMesh& mesh);
+
+/// The "machine" object of every JSON file: cpu, threads, read_bandwidth_gb_s, load.
+Json machine_json(const Machine& machine);
+
+/// The "form_factors" object of every JSON file.
+Json form_factors_json(const FormFactorQuality& quality);
+
+/// A number for each channel.
+Json channels_json(const Eigen::RowVectorXd& values);
+
+/// A list of rows.
+Json matrix_json(const Eigen::MatrixXd& matrix);
+
+/// Writes a value, indented; the file appears whole or not at all.
+void write_json(const std::filesystem::path& file, const Json& value);
+
+}  // namespace radiosity

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "form_factors/form_factors.hpp"
+#include "scene/patch_mesh.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace radiosity {
+
+/// Bytes of physical memory that this machine has.
+double machine_memory();
+
+/// At most how many bytes the form factors of n patches take: the upper half of K in double precision, or all
+/// of F for gather.
+double form_factor_bytes(Index patch_count, FormFactorMethod method);
+
+/// How many unordered pairs of patches can see each other as far as their planes go: each has a part of the
+/// other in front. Takes n^2 / 2 steps.
+std::uint64_t facing_pairs(const PatchMesh& mesh);
+
+/// At most how many bytes an operator takes to be applied: what blocks light only makes it less.
+struct MemoryNeed {
+  std::string operator_spec;
+  double bytes = 0;
+};
+std::vector<MemoryNeed> memory_needs(const PatchMesh& mesh);
+
+/// Bytes for a person: "48.1 MB" (powers of ten).
+std::string byte_text(double bytes);
+
+}  // namespace radiosity

@@ -1,0 +1,31 @@
+#include "apps/run_options.hpp"
+
+#include "apps/number_ranges.hpp"
+#include "foundation/error.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <limits>
+
+namespace radiosity {
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+  command.add_option("--threads", options.threads, "number of threads; default: all of the machine's")
+      ->check(integer_between(1, 4096))
+      ->option_text("N");
+  command.add_option("--seed", options.seed, "of everything random; default 1")
+      ->check(integer_between(0, std::numeric_limits<std::int64_t>::max()))
+      ->option_text("N");
+  command.add_flag("--quiet", options.quiet, "no progress bar and no notes");
+  command.add_option("--device", options.device, "where operators run: cpu; gl is not part of this version")
+      ->option_text("cpu|gl");
+}
+
+void require_device(const RunOptions& options) {
+  if (options.device == "gl")
+    fail<UsageError>("--device gl: OpenGL is not built into this version; use --device cpu");
+  if (options.device != "cpu")
+    fail<UsageError>("--device {}: there is no such device; the known ones are cpu and gl", options.device);
+}
+
+}  // namespace radiosity

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace radiosity {
+
+/// What every subcommand takes.
+struct RunOptions {
+  int threads = 0;  ///< 0: as many as the machine has
+  std::uint64_t seed = 1;
+  bool quiet = false;
+  std::string device = "cpu";
+};
+
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// Throws UsageError for a device that this build does not have.
+void require_device(const RunOptions& options);
+
+}  // namespace radiosity

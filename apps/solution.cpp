@@ -1,0 +1,48 @@
+#include "apps/solution.hpp"
+
+#include "foundation/stopwatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace radiosity {
+namespace {
+
+/// How far a relative residual has come from 1 to the tolerance, on a logarithmic scale.
+double progress(double residual, double tolerance) {
+  if (residual <= tolerance) return 1;
+  return std::clamp(std::log(residual) / std::log(tolerance), 0.0, 1.0);
+}
+
+}  // namespace
+
+Solution solve_scene(const FormFactors& form_factors, const Field& emission, const SolutionRequest& request,
+                     const Program& program, Monitor& monitor) {
+  Solution result;
+  const Stopwatch building;
+  const std::unique_ptr<LinearOperator> transport =
+      program.operators.make(request.operator_spec, form_factors);
+  result.build_seconds = building.seconds();
+  result.operator_name = transport->describe();
+  result.bytes = transport->bytes().total();
+
+  SolverOptions options;
+  options.tolerance = request.tolerance;
+  const Stopwatch solving;
+  const std::unique_ptr<Solver> solver =
+      program.solvers.make(request.solver_spec, {*transport, form_factors.mesh->area.cwiseSqrt(), options});
+  solver->start(emission);
+  while (!solver->converged()) {
+    solver->step();
+    monitor.checkpoint("solving", progress(solver->residual(), request.tolerance));
+  }
+  result.solve_seconds = solving.seconds();
+  result.solver_name = solver->describe();
+  result.products = solver->products();
+  result.residual = solver->residual();
+  result.radiosity = solver->radiosity();
+  return result;
+}
+
+}  // namespace radiosity

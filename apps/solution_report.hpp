@@ -1,0 +1,29 @@
+#pragma once
+
+#include "apps/energy_balance.hpp"
+#include "apps/group_summary.hpp"
+#include "apps/solution.hpp"
+#include "render/reference_comparison.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace radiosity {
+
+/// What `radiosity solve` says of a solution.
+struct SolutionReport {
+  Solution solution;
+  EnergyBalance energy;
+  std::vector<GroupSummary> groups;              ///< mean radiosity of each group
+  std::optional<ReferenceComparison> reference;  ///< with --reference
+};
+
+/// The summary for a person, on standard output.
+void print_solution(const FormFactors& form_factors, const SolutionReport& report);
+
+/// The same as JSON.
+void write_solution_json(const std::filesystem::path& file, const FormFactors& form_factors,
+                         const SolutionReport& report);
+
+}  // namespace radiosity

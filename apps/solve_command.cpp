@@ -1,0 +1,141 @@
+#include "apps/energy_balance.hpp"
+#include "apps/form_factor_options.hpp"
+#include "apps/group_summary.hpp"
+#include "apps/number_ranges.hpp"
+#include "apps/output_check.hpp"
+#include "apps/program.hpp"
+#include "apps/run_options.hpp"
+#include "apps/scene_options.hpp"
+#include "apps/solution.hpp"
+#include "apps/solution_report.hpp"
+#include "apps/terminal_monitor.hpp"
+#include "experiments/lights.hpp"
+#include "foundation/error.hpp"
+#include "foundation/parallel.hpp"
+#include "render/reference_comparison.hpp"
+#include "render/write_solution.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace radiosity {
+namespace {
+
+struct SolveOptions {
+  SceneOptions scene;
+  FormFactorChoice form_factors;
+  SolutionRequest request;
+  RunOptions run;
+  std::string lights;
+  bool reference = false;
+  PathTracingOptions paths;
+  PictureOptions picture;
+  std::vector<std::filesystem::path> outputs;
+  std::filesystem::path json_file;
+};
+
+void check_outputs(const SolveOptions& options) {
+  for (const std::filesystem::path& output : options.outputs) {
+    check_solution_format(output);
+    require_writable(output);
+  }
+  require_writable(options.json_file);
+  require_writable(options.form_factors.save_file);
+}
+
+/// The scene's own emission, or that of the one light asked for.
+Field light_of(const SolveOptions& options, const PatchMesh& mesh, Monitor& monitor) {
+  if (options.lights.empty()) return mesh.emission;
+  const LightCounts counts = LightCounts::parse(options.lights);
+  if (counts.total() != 1)
+    fail<UsageError>("--lights {}: solve takes one light, as in area:1; compare takes many", options.lights);
+  return draw_lights(mesh, counts, options.run.seed, monitor).emission;
+}
+
+void run_solve(SolveOptions options, const Program& program) {
+  const ThreadLimit limit(options.run.threads);
+  require_device(options.run);
+  check_outputs(options);
+  options.form_factors.options.seed = options.run.seed;
+  options.paths.seed = options.run.seed;
+
+  TerminalMonitor monitor(options.run.quiet);
+  const auto mesh = open_mesh(options.scene);
+  const FormFactors form_factors = obtain_form_factors(mesh, options.form_factors, monitor);
+  const Field emission = light_of(options, *mesh, monitor);
+
+  SolutionReport report;
+  report.solution = solve_scene(form_factors, emission, options.request, program, monitor);
+  report.energy = energy_balance(form_factors, emission, report.solution.radiosity);
+  report.groups = summarize_groups(*mesh, report.solution.radiosity);
+  if (options.reference) {
+    PatchMesh lit = *mesh;
+    lit.emission = emission;
+    report.reference =
+        compare_with_reference(lit, report.solution.radiosity, trace_paths(lit, options.paths, monitor));
+  }
+
+  std::vector<std::string> notes = mesh->notes;
+  if (!form_factors.quality.closure_note.empty()) notes.push_back(form_factors.quality.closure_note);
+  for (const std::filesystem::path& output : options.outputs)
+    notes.push_back(write_solution(output, *mesh, report.solution.radiosity, options.picture, monitor));
+  if (!options.json_file.empty()) write_solution_json(options.json_file, form_factors, report);
+  monitor.clear();
+  print_solution(form_factors, report);
+  if (!options.run.quiet)
+    for (const std::string& note : notes) fmt::print("note: {}\n", note);
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& app, const Program& program) {
+  CLI::App* command =
+      app.add_subcommand("solve", "the radiosity of a scene, as numbers, a picture or a lit mesh");
+  const auto options = std::make_shared<SolveOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--operator", options->request.operator_spec, "default dense (radiosity info --list)")
+      ->option_text("SPEC");
+  command
+      ->add_option("--solver", options->request.solver_spec,
+                   "default cg where the operator is symmetric, else gmres")
+      ->option_text("SPEC");
+  command
+      ->add_option("--tolerance", options->request.tolerance, "the solver's relative residual; default 1e-6")
+      ->check(number_between(1e-15, 1, false))
+      ->option_text("T");
+  command
+      ->add_option("--lights", options->lights,
+                   "one drawn light in place of the scene's: area:1, point:1 or patch:1")
+      ->option_text("KIND:1");
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "write the solution as .glb, .ply, .exr, .png or .npy; may be repeated")
+      ->expected(1, -1)
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  command->add_option("--width", options->picture.width, "of the picture, pixels; default 800")
+      ->check(integer_between(1, 16384))
+      ->option_text("PIXELS");
+  command->add_option("--height", options->picture.height, "of the picture, pixels; default 800")
+      ->check(integer_between(1, 16384))
+      ->option_text("PIXELS");
+  command->add_flag("--interpolate", options->picture.interpolate,
+                    "shade the picture smoothly in place of flat patches");
+  command->add_flag("--reference", options->reference,
+                    "compare with path tracing, which shares no transport code");
+  command->add_option("--reference-paths", options->paths.paths, "paths from each patch; default 1024")
+      ->check(integer_between(64, 1 << 24))
+      ->option_text("N");
+  command->add_option("--json", options->json_file, "write the summary as JSON")->option_text("FILE");
+  add_form_factor_options(*command, options->form_factors);
+  add_run_options(*command, options->run);
+  command->callback([options, &program] { run_solve(*options, program); });
+}
+
+}  // namespace radiosity
