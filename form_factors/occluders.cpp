@@ -1,6 +1,7 @@
 #include "form_factors/occluders.hpp"
 
 #include "foundation/error.hpp"
+#include "foundation/stopwatch.hpp"
 
 #include <embree3/rtcore.h>
 
@@ -124,6 +125,23 @@ void Occluders::trace(RayPacket& packet) const {
   initialize(context, true);
   rtcOccluded16(packet.active, tracer_->scene, &context, &ray);
   for (int k = 0; k < RayPacket::size; ++k) packet.blocked[k] = ray.tfar[k] < 0 ? 1 : 0;
+}
+
+double Occluders::tracing_seconds(const std::vector<RayPacket>& packets) const {
+  constexpr std::size_t batch = 512;  // stays in the cache
+  std::vector<RTCRay16> rays(std::min(batch, packets.size()));
+  double seconds = 0;
+  for (std::size_t begin = 0; begin < packets.size(); begin += batch) {
+    const std::size_t count = std::min(batch, packets.size() - begin);
+    for (std::size_t k = 0; k < count; ++k) fill_ray(packets[begin + k], rays[k], 1);
+    RTCIntersectContext context;
+    initialize(context, true);
+    const Stopwatch watch;
+    for (std::size_t k = 0; k < count; ++k)
+      rtcOccluded16(packets[begin + k].active, tracer_->scene, &context, &rays[k]);
+    seconds += watch.thread_cpu_seconds();
+  }
+  return seconds;
 }
 
 void Occluders::first_hits(const RayPacket& packet, RayHit* hits) const {

@@ -35,7 +35,7 @@ bool PairExchange::may_exchange(const PatchCluster& own, const PatchCluster& oth
 }
 
 ExchangeWorkspace PairExchange::make_workspace() const {
-  return {std::vector<Eigen::Vector3d>(occluders_.blockers().size(), Eigen::Vector3d::Zero())};
+  return {std::vector<Eigen::Vector3d>(occluders_.blockers().size(), Eigen::Vector3d::Zero()), nullptr};
 }
 
 PairExchange::ClusterPair PairExchange::relate(const PatchCluster& own, const PatchCluster& other,
@@ -127,7 +127,7 @@ void PairExchange::apply_visibility(int i, const ClusterPair& pair, ExchangeWork
       kernel = 0;
       continue;
     }
-    const VisibleFraction fraction = visibility_(i, j, wanted_kernel_error(i, j) / kernel);
+    const VisibleFraction fraction = visibility_(i, j, wanted_kernel_error(i, j) / kernel, workspace.record);
     result.rays += fraction.rays;
     result.variance[l] = fraction.variance * kernel * kernel;
     kernel *= fraction.value;

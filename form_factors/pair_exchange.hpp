@@ -15,7 +15,8 @@ namespace radiosity {
 
 /// Room for the work of one thread; carries separating planes from one pair to the next.
 struct ExchangeWorkspace {
-  std::vector<Eigen::Vector3d> separating;  ///< per blocker
+  std::vector<Eigen::Vector3d> separating;   ///< per blocker
+  std::vector<RayPacket>* record = nullptr;  ///< receives every packet, if not null
 };
 
 /// Exchanges of one patch with a cluster: A_i F_ij / sqrt(A_i A_j), that is K_ij, and what their sampling

@@ -119,6 +119,7 @@ void PatchGeometry::add_clusters(const PatchMesh& mesh, std::span<int> patches, 
   cluster.begin = static_cast<int>(to_mesh_.size());
   to_mesh_.insert(to_mesh_.end(), patches.begin(), patches.end());
   cluster.end = static_cast<int>(to_mesh_.size());
+  cluster_of_.resize(to_mesh_.size(), cluster.number);
   cluster.coplanar = coplanar || patches.size() == 1;
   clusters_.push_back(cluster);
 }

@@ -43,6 +43,10 @@ class PatchGeometry {
 
   const std::vector<PatchCluster>& clusters() const { return clusters_; }
 
+  const PatchCluster& cluster_of(int patch) const {
+    return clusters_[static_cast<std::size_t>(cluster_of_[static_cast<std::size_t>(patch)])];
+  }
+
   const ConvexPolygon& polygon(int patch) const { return polygons_[static_cast<std::size_t>(patch)]; }
   const Plane& plane(int patch) const { return planes_[static_cast<std::size_t>(patch)]; }
   double area(int patch) const { return area_[static_cast<std::size_t>(patch)]; }
@@ -65,7 +69,7 @@ class PatchGeometry {
 
   Eigen::Vector3d origin_;
   double scale_ = 1;
-  std::vector<int> to_mesh_, from_mesh_, group_;
+  std::vector<int> to_mesh_, from_mesh_, cluster_of_, group_;
   std::vector<ConvexPolygon> polygons_;
   std::vector<Plane> planes_;
   std::vector<double> area_, radius_, group_area_;

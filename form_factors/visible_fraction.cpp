@@ -36,7 +36,8 @@ VisibilitySampling::VisibilitySampling(const PatchGeometry& geometry, const Occl
                                        std::uint64_t seed)
     : geometry_(geometry), occluders_(occluders), sampler_(geometry), seed_(seed) {}
 
-VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted) const {
+VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted,
+                                               std::vector<RayPacket>* record) const {
   const int first = std::min(i, j), second = std::max(i, j);
   const auto stream = static_cast<std::uint64_t>(geometry_.to_mesh(first)) << 32U |
                       static_cast<std::uint64_t>(geometry_.to_mesh(second));
@@ -54,6 +55,7 @@ VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted) cons
       for (std::size_t r = 0; r < kReplicates; ++r) {
         sampler_.fill(first, second, done, shifts[r], packet, weight);
         occluders_.trace(packet);
+        if (record) record->push_back(packet);
         sampler_.tally(packet, weight, tallies[r].visible, tallies[r].all);
       }
     }

@@ -4,6 +4,7 @@
 #include "form_factors/pair_sampler.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace radiosity {
 
@@ -25,7 +26,8 @@ class VisibilitySampling {
 
   /// At least least_rays, at most most_rays; stops once the standard error is <= wanted. Depends on (i, j)
   /// and the seed alone.
-  VisibleFraction operator()(int i, int j, double wanted) const;
+  /// `record`, if not null, receives a copy of every packet (for measuring the ray tracer alone).
+  VisibleFraction operator()(int i, int j, double wanted, std::vector<RayPacket>* record = nullptr) const;
 
   static constexpr std::uint64_t least_rays = 64;
   static constexpr std::uint64_t most_rays = std::uint64_t{1} << 20U;
