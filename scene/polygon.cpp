@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace radiosity {
 namespace {
@@ -59,7 +60,7 @@ std::vector<Polygon> peel(Polygon rest, const Polygon& cover, const Vector3& nor
   return pieces;
 }
 
-bool strictly_inside(const Vector3& point, const Polygon& triangle, const Vector3& normal, double tolerance) {
+bool is_inside(const Vector3& point, const Polygon& triangle, const Vector3& normal, double tolerance) {
   for (std::size_t k = 0; k < triangle.size(); ++k)
     if (left_of(point, triangle[k], next_corner(triangle, k), normal) < -tolerance) return false;
   return true;
@@ -121,31 +122,40 @@ bool overlap(const Polygon& a, const Polygon& b, const Vector3& normal, double t
   return !separates(a, b) && !separates(b, a);
 }
 
-std::vector<Polygon> convex_parts(const Polygon& polygon, const Vector3& normal, double tolerance) {
-  if (is_convex(polygon, normal, tolerance)) return {polygon};
-  std::vector<Polygon> parts;
-  Polygon rest = polygon;
-  while (rest.size() > 3) {  // ear clipping
-    std::size_t best = rest.size();
+std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon, const Vector3& normal,
+                                                    double tolerance) {
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::vector<std::size_t> rest(polygon.size());
+  std::iota(rest.begin(), rest.end(), std::size_t{0});
+  while (rest.size() > 3) {
+    const std::size_t n = rest.size();
+    std::size_t best = n;
     double best_roundness = 0;
-    for (std::size_t k = 0; k < rest.size(); ++k) {
-      const std::size_t before = (k + rest.size() - 1) % rest.size(), after = (k + 1) % rest.size();
-      const Polygon ear = {rest[before], rest[k], rest[after]};
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::array<std::size_t, 3> corners = {rest[(k + n - 1) % n], rest[k], rest[(k + 1) % n]};
+      const Polygon ear = {polygon[corners[0]], polygon[corners[1]], polygon[corners[2]]};
       if (area_vector(ear).dot(normal) <= 0 || roundness(ear) <= best_roundness) continue;
-      bool empty = true;
-      for (std::size_t other = 0; other < rest.size() && empty; ++other)
-        empty = other == before || other == k || other == after ||
-                !strictly_inside(rest[other], ear, normal, tolerance);
-      if (!empty) continue;
+      const bool blocked = std::any_of(rest.begin(), rest.end(), [&](std::size_t other) {
+        return std::find(corners.begin(), corners.end(), other) == corners.end() &&
+               is_inside(polygon[other], ear, normal, tolerance);
+      });
+      if (blocked) continue;
       best = k;
       best_roundness = roundness(ear);
     }
-    if (best == rest.size()) return {};
-    parts.push_back(
-        {rest[(best + rest.size() - 1) % rest.size()], rest[best], rest[(best + 1) % rest.size()]});
+    if (best == n) return {};
+    triangles.push_back({rest[(best + n - 1) % n], rest[best], rest[(best + 1) % n]});
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(best));
   }
-  parts.push_back(rest);
+  if (rest.size() == 3) triangles.push_back({rest[0], rest[1], rest[2]});
+  return triangles;
+}
+
+std::vector<Polygon> convex_parts(const Polygon& polygon, const Vector3& normal, double tolerance) {
+  if (is_convex(polygon, normal, tolerance)) return {polygon};
+  std::vector<Polygon> parts;
+  for (const auto& [a, b, c] : triangulate(polygon, normal, tolerance))
+    parts.push_back({polygon[a], polygon[b], polygon[c]});
   return parts;
 }
 

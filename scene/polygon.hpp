@@ -26,6 +26,12 @@ std::pair<Polygon, Polygon> split(const Polygon& polygon, const Vector3& from, c
 /// `normal`.
 bool overlap(const Polygon& a, const Polygon& b, const Vector3& normal, double tolerance);
 
+/// Triangles, as corner numbers, that fill a simple polygon (within its tolerance also one that is not quite
+/// plane) which runs counter-clockwise seen from `normal`; by ear clipping, roundest ear first. Nothing if
+/// its boundary crosses itself.
+std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon, const Vector3& normal,
+                                                    double tolerance);
+
 /// Convex parts of a simple polygon that runs counter-clockwise seen from `normal`: itself, or triangles.
 /// Nothing if its boundary crosses itself.
 std::vector<Polygon> convex_parts(const Polygon& polygon, const Vector3& normal, double tolerance);
