@@ -1,19 +1,16 @@
 #include "apps/form_factor_options.hpp"
-#include "apps/group_form_factors.hpp"
-#include "apps/json_objects.hpp"
-#include "apps/memory_need.hpp"
 #include "apps/output_check.hpp"
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/scene_options.hpp"
 #include "apps/terminal_monitor.hpp"
+#include "experiments/form_factor_report.hpp"
 #include "experiments/machine.hpp"
 #include "foundation/npy.hpp"
 #include "foundation/parallel.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -46,34 +43,6 @@ void print_quality(const FormFactors& form_factors) {
   fmt::print("time         {:.3g} s, {:.3g} s of CPU\n", quality.seconds, quality.cpu_seconds);
 }
 
-void print_groups(const GroupFormFactors& groups) {
-  fmt::print(
-      "\nF from the group of the row to that of the column; the first column is the area\n{:<20} {:>10}", "",
-      "area");
-  for (const std::string& name : groups.groups) fmt::print(" {:>12.12}", name);
-  fmt::print("\n");
-  for (Index g = 0; g < groups.matrix.rows(); ++g) {
-    fmt::print("{:<20.20} {:>10.4g}", groups.groups[static_cast<std::size_t>(g)], groups.area[g]);
-    for (Index h = 0; h < groups.matrix.cols(); ++h) fmt::print(" {:>12.6g}", groups.matrix(g, h));
-    fmt::print("\n");
-  }
-}
-
-void write_quality(const std::filesystem::path& file, const FormFactors& form_factors,
-                   const std::optional<GroupFormFactors>& groups) {
-  Json result = {{"scene", scene_json(*form_factors.mesh)},
-                 {"machine", machine_json(measure_machine())},
-                 {"form_factors", form_factors_json(form_factors.quality)}};
-  if (groups) {
-    result["groups"] = groups->groups;
-    result["areas"] = channels_json(groups->area);
-    result["matrix"] = matrix_json(groups->matrix);
-    result["standard_error"] =
-        groups->standard_error.size() > 0 ? matrix_json(groups->standard_error) : Json(nullptr);
-  }
-  write_json(file, result);
-}
-
 void run_form_factors(FormFactorsCommandOptions options) {
   const ThreadLimit limit(options.run.threads);
   require_device(options.run);
@@ -88,11 +57,12 @@ void run_form_factors(FormFactorsCommandOptions options) {
   std::optional<GroupFormFactors> groups;
   if (options.groups) groups = group_form_factors(form_factors);
   if (!options.matrix_file.empty()) write_npy(options.matrix_file, form_factors.matrix());
-  if (!options.json_file.empty()) write_quality(options.json_file, form_factors, groups);
+  if (!options.json_file.empty())
+    write_form_factor_json(options.json_file, form_factors, measure_machine(), groups);
 
   monitor.clear();
   print_quality(form_factors);
-  if (groups) print_groups(*groups);
+  if (groups) fmt::print("\nF from the group of a row to that of a column\n{}", group_table(*groups));
   if (options.run.quiet) return;
   for (const std::string& note : mesh->notes) fmt::print("note: {}\n", note);
   if (!form_factors.quality.closure_note.empty()) fmt::print("note: {}\n", form_factors.quality.closure_note);

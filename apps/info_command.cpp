@@ -1,9 +1,9 @@
 #include "apps/group_summary.hpp"
-#include "apps/json_objects.hpp"
 #include "apps/memory_need.hpp"
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/scene_options.hpp"
+#include "experiments/json_objects.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 #include "scene/built_in.hpp"
@@ -76,8 +76,8 @@ void write_scene_json(const std::filesystem::path& file, const PatchMesh& mesh) 
     groups.push_back({{"name", group.name},
                       {"patches", group.patches},
                       {"area", group.area},
-                      {"reflectance", channels_json(group.mean)},
-                      {"emission", channels_json(emissions[next++].mean)}});
+                      {"reflectance", numbers_json(group.mean)},
+                      {"emission", numbers_json(emissions[next++].mean)}});
   Json memory = Json::object();
   for (const MemoryNeed& need : memory_needs(mesh)) memory[need.operator_spec] = need.bytes;
   write_json(file, {{"scene", scene}, {"groups", groups}, {"memory", memory}, {"notes", mesh.notes}});

@@ -1,7 +1,7 @@
 #include "apps/solution_report.hpp"
 
-#include "apps/json_objects.hpp"
 #include "apps/memory_need.hpp"
+#include "experiments/json_objects.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,7 +80,7 @@ void write_solution_json(const std::filesystem::path& file, const FormFactors& f
   const Solution& solution = report.solution;
   Json groups = Json::array();
   for (const GroupSummary& group : report.groups)
-    groups.push_back({{"name", group.name}, {"area", group.area}, {"radiosity", channels_json(group.mean)}});
+    groups.push_back({{"name", group.name}, {"area", group.area}, {"radiosity", numbers_json(group.mean)}});
   const Json energy = {
       {"emitted", report.energy.emitted}, {"absorbed", report.energy.absorbed}, {"lost", report.energy.lost}};
   write_json(file, {{"scene", scene_json(*form_factors.mesh)},

@@ -3,7 +3,7 @@
 
 #include "experiments/comparison.hpp"
 #include "experiments/form_factor_report.hpp"
-#include "foundation/output_file.hpp"
+#include "experiments/json_objects.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -11,40 +11,8 @@ namespace radiosity {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json();
-}
-
-Json scene_json(const PatchMesh& mesh) {
-  std::size_t triangles = 0;
-  for (const Face& face : mesh.scene->faces) triangles += static_cast<std::size_t>(face.corner_count - 2);
-  return {{"name", mesh.scene->name},    {"triangles", triangles},         {"patches", mesh.patch_count()},
-          {"channels", mesh.channels()}, {"closed", mesh.topology.closed}, {"area", mesh.area.sum()}};
-}
-
-Json machine_json(const Machine& machine) {
-  return {{"cpu", machine.cpu},
-          {"threads", machine.threads},
-          {"read_bandwidth_gb_s", machine.read_bandwidth_gb_s},
-          {"load", machine.load}};
-}
-
-Json form_factors_json(const FormFactorQuality& quality) {
-  const bool timed = quality.rays > 0 && quality.seconds > 0;
-  return {{"method", quality.method},
-          {"closure", quality.closure},
-          {"rays", quality.rays},
-          {"seconds", quality.seconds},
-          {"cpu_seconds", quality.cpu_seconds},
-          {"rays_per_second", timed ? Json(static_cast<double>(quality.rays) / quality.seconds) : Json()},
-          {"row_sum_min", quality.row_sum_min},
-          {"row_sum_max", quality.row_sum_max},
-          {"row_sum_rms", quality.row_sum_rms},
-          {"reciprocity_max", quality.reciprocity_max},
-          {"back_hits", quality.back_hits},
-          {"leaks", quality.leaks}};
 }
 
 Json timing_json(const Timing& timing) {
@@ -74,21 +42,6 @@ Json result_json(const ComparisonResult& result) {
           {"iterations", result.iterations}};
 }
 
-Json matrix_json(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Index i = 0; i < matrix.rows(); ++i) {
-    const Eigen::VectorXd row = matrix.row(i);
-    rows.push_back(std::vector<double>(row.begin(), row.end()));
-  }
-  return rows;
-}
-
-void write_json(const std::filesystem::path& file, const Json& document) {
-  OutputFile output(file);
-  output.stream() << document.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  output.commit();
-}
-
 }  // namespace
 
 void write_comparison_json(const std::filesystem::path& file, const Comparison& comparison) {
@@ -107,7 +60,7 @@ void write_form_factor_json(const std::filesystem::path& file, const FormFactors
                    {"form_factors", form_factors_json(form_factors.quality)}};
   if (groups) {
     document["groups"] = groups->names;
-    document["areas"] = std::vector<double>(groups->areas.begin(), groups->areas.end());
+    document["areas"] = numbers_json(groups->areas);
     document["matrix"] = matrix_json(groups->matrix);
     document["standard_error"] = groups->standard_error ? matrix_json(*groups->standard_error) : Json();
   }

@@ -1,8 +1,10 @@
-#include "apps/json_objects.hpp"
+#include "experiments/json_objects.hpp"
 
 #include "foundation/output_file.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <vector>
 
 namespace radiosity {
 
@@ -26,13 +28,13 @@ Json machine_json(const Machine& machine) {
 }
 
 Json form_factors_json(const FormFactorQuality& quality) {
-  const double rate = quality.seconds > 0 ? static_cast<double>(quality.rays) / quality.seconds : 0;
+  const bool timed = quality.rays > 0 && quality.seconds > 0;
   return {{"method", quality.method},
           {"closure", quality.closure},
           {"rays", quality.rays},
           {"seconds", quality.seconds},
           {"cpu_seconds", quality.cpu_seconds},
-          {"rays_per_second", rate},
+          {"rays_per_second", timed ? Json(static_cast<double>(quality.rays) / quality.seconds) : Json()},
           {"row_sum_min", quality.row_sum_min},
           {"row_sum_max", quality.row_sum_max},
           {"row_sum_rms", quality.row_sum_rms},
@@ -41,21 +43,19 @@ Json form_factors_json(const FormFactorQuality& quality) {
           {"leaks", quality.leaks}};
 }
 
-Json channels_json(const Eigen::RowVectorXd& values) {
-  Json list = Json::array();
-  for (Index c = 0; c < values.size(); ++c) list.push_back(values[c]);
-  return list;
+Json numbers_json(const Eigen::VectorXd& values) {
+  return std::vector<double>(values.begin(), values.end());
 }
 
 Json matrix_json(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
-  for (Index i = 0; i < matrix.rows(); ++i) rows.push_back(channels_json(matrix.row(i)));
+  for (Index i = 0; i < matrix.rows(); ++i) rows.push_back(numbers_json(matrix.row(i)));
   return rows;
 }
 
 void write_json(const std::filesystem::path& file, const Json& value) {
   OutputFile output(file);
-  output.stream() << value.dump(2) << '\n';
+  output.stream() << value.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   output.commit();
 }
 

@@ -26,8 +26,8 @@ Json machine_json(const Machine& machine);
 /// The "form_factors" object of every JSON file.
 Json form_factors_json(const FormFactorQuality& quality);
 
-/// A number for each channel.
-Json channels_json(const Eigen::RowVectorXd& values);
+/// A list of numbers.
+Json numbers_json(const Eigen::VectorXd& values);
 
 /// A list of rows.
 Json matrix_json(const Eigen::MatrixXd& matrix);
