@@ -49,7 +49,7 @@ TEST_P(Furnace, ClosedRoomsHoldEmissionOverOneMinusReflectance) {
   for (const Scene& scene : {box_room({1, 1, 1}), box_room({3, 0.5, 2}), sphere_room(1)}) {
     PatchMesh mesh = make_patches(scene, {.patches = scene.faces.size() == 6 ? 96 : 0});
     make_furnace(mesh, reflectance, 2);
-    const PathTracedIrradiance result = trace(mesh, {.paths = 4096, .lights = lights});
+    const PathTracedIrradiance result = trace(mesh, {.paths = 2048, .lights = lights});
     const auto expected = Eigen::MatrixXd::Constant(mesh.patch_count(), 1, 2 / (1 - reflectance));
     const Verdict verdict = judge(result.irradiance, result.standard_error, expected);
     EXPECT_TRUE(accepted(verdict)) << scene.name << ": " << verdict.mean_square << " " << verdict.beyond_four
