@@ -1,6 +1,5 @@
 #include "experiments/form_factor_report.hpp"
 
-#include "foundation/error.hpp"
 #include "kernels/products.hpp"
 
 #include <fmt/format.h>
@@ -35,8 +34,7 @@ Eigen::MatrixXd multiply_form_factors(const FormFactors& form_factors, const Eig
 
 }  // namespace
 
-GroupFormFactors group_form_factors(const FormFactors& form_factors,
-                                    const std::optional<Eigen::MatrixXd>& standard_error) {
+GroupFormFactors group_form_factors(const FormFactors& form_factors) {
   const PatchMesh& mesh = *form_factors.mesh;
   const std::vector<Index> used = groups_in_use(mesh);
   Eigen::MatrixXd members = Eigen::MatrixXd::Zero(mesh.patch_count(), static_cast<Index>(used.size()));
@@ -50,13 +48,8 @@ GroupFormFactors group_form_factors(const FormFactors& form_factors,
   groups.areas = members.transpose() * mesh.area;
   const Eigen::MatrixXd received = mesh.area.asDiagonal() * multiply_form_factors(form_factors, members);
   groups.matrix = groups.areas.cwiseInverse().asDiagonal() * (members.transpose() * received);
-  if (standard_error) {
-    const auto count = static_cast<Index>(mesh.scene->groups.size());
-    if (standard_error->rows() != count || standard_error->cols() != count)
-      fail<UsageError>("Standard errors of {} x {} groups were given for a scene of {} groups.",
-                       standard_error->rows(), standard_error->cols(), count);
-    groups.standard_error = (*standard_error)(used, used);
-  }
+  if (form_factors.group_standard_error.size() > 0)
+    groups.standard_error = form_factors.group_standard_error(used, used);
   return groups;
 }
 

@@ -21,10 +21,8 @@ struct GroupFormFactors {
   std::optional<Eigen::MatrixXd> standard_error;  ///< the same shape; empty where none was estimated
 };
 
-/// `standard_error` has one row and column for each group of the scene, with patches or without; those
-/// without are left out. Throws UsageError for another shape.
-GroupFormFactors group_form_factors(const FormFactors& form_factors,
-                                    const std::optional<Eigen::MatrixXd>& standard_error = std::nullopt);
+/// Groups of the scene without patches are left out.
+GroupFormFactors group_form_factors(const FormFactors& form_factors);
 
 /// The JSON of `form-factors` (architecture.md): scene, machine, form_factors and, if given, the groups.
 /// Appears whole or not at all.
