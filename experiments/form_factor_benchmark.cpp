@@ -24,7 +24,7 @@ std::vector<RayPacket> sample_packets(const PairExchange& exchange, std::uint64_
     for (int i = own.begin; i < own.end; ++i) {
       if (patch++ % stride != 0) continue;
       for (const PatchCluster& other : clusters) {
-        const auto pair = exchange.relate(own, other, workspace);
+        const auto pair = exchange.relate(own, other);
         if (!pair.nothing) exchange.evaluate(i, pair, 0, workspace, result);
         if (packets.size() * RayPacket::size > wanted_rays) return packets;
       }

@@ -57,7 +57,7 @@ void evaluate_row(const PairExchange& exchange, std::size_t own_number, Symmetri
   ClusterExchange result;
   ExchangeWorkspace workspace = exchange.make_workspace();
   for (std::size_t b = own_number; b < clusters.size(); ++b) {
-    const auto pair = exchange.relate(own, clusters[b], workspace);
+    const auto pair = exchange.relate(own, clusters[b]);
     if (pair.nothing) continue;
     for (int i = own.begin; i < own.end; ++i) {
       exchange.evaluate(i, pair, i + 1, workspace, result);
@@ -71,6 +71,16 @@ void evaluate_row(const PairExchange& exchange, std::size_t own_number, Symmetri
       }
     }
   }
+}
+
+// Whether dropping zero tiles is worth a copy of the others.
+bool many_zero_tiles(const SymmetricTiles<double>& kernel) {
+  std::atomic<Index> zero{0};
+  parallel_for(static_cast<std::size_t>(kernel.tile_count()), [&](std::size_t tile) {
+    const double* const entries = kernel.tile_data(static_cast<Index>(tile));
+    if (std::all_of(entries, entries + kTile * kTile, [](double entry) { return entry == 0; })) ++zero;
+  });
+  return 10 * zero > kernel.tile_count();
 }
 
 Eigen::MatrixXd variance_between_groups(const std::vector<ClusterRow>& rows, const PatchGeometry& geometry,
@@ -110,7 +120,9 @@ AssembledKernel assemble_accurate(const PatchMesh& mesh, const PairExchange& exc
   for (const ClusterRow& row : rows) result.rays += row.rays;
   result.group_variance =
       variance_between_groups(rows, geometry, static_cast<Index>(mesh.scene->groups.size()));
-  result.kernel = std::make_shared<SymmetricTiles<double>>(kernel->without_zero_tiles());
+  result.kernel = many_zero_tiles(*kernel)
+                      ? std::make_shared<SymmetricTiles<double>>(kernel->without_zero_tiles())
+                      : kernel;
   return result;
 }
 

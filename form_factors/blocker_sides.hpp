@@ -16,6 +16,8 @@ class BlockerSet {
 
   void add(std::size_t b) { words_[b / 64] |= std::uint64_t{1} << (b % 64); }
 
+  bool has(std::size_t b) const { return (words_[b / 64] >> (b % 64)) & 1U; }
+
   bool empty() const {
     std::uint64_t any = 0;
     for (const std::uint64_t word : words_) any |= word;

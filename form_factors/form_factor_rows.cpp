@@ -31,8 +31,7 @@ void FormFactorRows::fill_row(Index i, const std::vector<char>* wanted, Eigen::V
     if (wanted && !(*wanted)[static_cast<std::size_t>(cluster.number)]) continue;
     // In the order of the assembly, whose lower cluster always comes first.
     const bool forward = own_cluster.number <= cluster.number;
-    auto pair = forward ? exchange_->relate(own_cluster, cluster, workspace)
-                        : exchange_->relate(cluster, own_cluster, workspace);
+    auto pair = forward ? exchange_->relate(own_cluster, cluster) : exchange_->relate(cluster, own_cluster);
     if (pair.nothing) continue;
     pair.other = &cluster;
     exchange_->evaluate(own, pair, 0, workspace, result);

@@ -38,8 +38,7 @@ ExchangeWorkspace PairExchange::make_workspace() const {
   return {std::vector<Eigen::Vector3d>(occluders_.blockers().size(), Eigen::Vector3d::Zero()), nullptr};
 }
 
-PairExchange::ClusterPair PairExchange::relate(const PatchCluster& own, const PatchCluster& other,
-                                               ExchangeWorkspace& workspace) const {
+PairExchange::ClusterPair PairExchange::relate(const PatchCluster& own, const PatchCluster& other) const {
   ClusterPair pair;
   pair.other = &other;
   pair.nothing = !may_exchange(own, other);
@@ -47,18 +46,17 @@ PairExchange::ClusterPair PairExchange::relate(const PatchCluster& own, const Pa
   pair.proofs = !sides_.empty();
   if (!pair.proofs) return pair;
   pair.candidates = between(sides_.cluster(own), sides_.cluster(other));
-  pair.nothing = narrow(own.hull, other.hull, pair.candidates, workspace) == Shaft::blocked;
+  pair.nothing = narrow(own.hull, other.hull, pair.candidates) == Shaft::blocked;
   return pair;
 }
 
-// Keeps the candidates that may come between two ends.
 PairExchange::Shaft PairExchange::narrow(const ShaftEnd& first, const ShaftEnd& second,
-                                         BlockerSet& candidates, ExchangeWorkspace& workspace) const {
+                                         BlockerSet& candidates) const {
   BlockerSet left;
   bool blocked = false;
   candidates.for_each([&](std::size_t b) {
     const Blocker& blocker = occluders_.blockers()[b];
-    if (misses_shaft(blocker, first, second, workspace.separating[b])) return true;
+    if (misses_shaft(blocker, first, second)) return true;
     left.add(b);
     blocked = blocks_shaft(blocker, first, second);
     return !blocked;
@@ -66,6 +64,67 @@ PairExchange::Shaft PairExchange::narrow(const ShaftEnd& first, const ShaftEnd& 
   candidates = left;
   if (blocked) return Shaft::blocked;
   return left.empty() ? Shaft::clear : Shaft::unknown;
+}
+
+void PairExchange::decide(int i, const PatchCluster& cluster, const BlockerSet& candidates,
+                          ExchangeWorkspace& workspace, Shaft* shafts) const {
+  const int count = cluster.end - cluster.begin;
+  std::array<BlockerSet, PairHeights::capacity> of_pair;
+  for (int l = 0; l < count; ++l) {
+    of_pair[static_cast<std::size_t>(l)] = between(sides_.patch(i), sides_.patch(cluster.begin + l));
+    shafts[l] = Shaft::clear;
+  }
+  std::array<unsigned char, PairHeights::capacity> open;
+  candidates.for_each([&](std::size_t b) {
+    for (int l = 0; l < count; ++l) {
+      const auto at = static_cast<std::size_t>(l);
+      open[at] = shafts[l] != Shaft::blocked && of_pair[at].has(b);
+    }
+    decide(i, cluster, b, workspace.separating[b], open.data(), shafts);
+    return true;
+  });
+}
+
+void PairExchange::decide(int i, const PatchCluster& cluster, std::size_t blocker_number,
+                          Eigen::Vector3d& direction, unsigned char* open, Shaft* shafts) const {
+  const int count = cluster.end - cluster.begin;
+  const QuadraturePoints& patches = geometry_.quadrature();
+  const Blocker& blocker = occluders_.blockers()[blocker_number];
+  const auto own = geometry_.polygon(i).corners();
+  std::array<unsigned char, PairHeights::capacity> answer;
+
+  // A face that cuts the segment between two centres is in the way: of all of the pair, or of some.
+  patches.loops().crosses(patches.arrays(), blocker.planes, i, cluster.begin, cluster.end, answer.data());
+  for (int l = 0; l < count; ++l) {
+    if (!open[l] || !answer[static_cast<std::size_t>(l)]) continue;
+    const bool all = blocks_shaft(blocker, own, geometry_.polygon(cluster.begin + l).corners());
+    shafts[l] = all ? Shaft::blocked : Shaft::unknown;
+    open[l] = 0;
+  }
+  // A direction that separates one pair from the face separates most of its neighbours too.
+  bool untried = direction.squaredNorm() > 0;
+  for (int l = 0; l < count; ++l) {
+    if (untried) {
+      const double limit = lowest(direction, blocker) - PatchGeometry::slack;
+      double own_high = -1e300;
+      for (const Eigen::Vector3d& corner : own) own_high = std::max(own_high, direction.dot(corner));
+      if (own_high < limit) {
+        patches.loops().below(patches.arrays(), direction.data(), limit, cluster.begin, cluster.end,
+                              answer.data());
+        for (int k = 0; k < count; ++k) open[k] &= !answer[static_cast<std::size_t>(k)];
+      }
+      untried = false;
+    }
+    if (!open[l]) continue;
+    Eigen::Vector3d found;
+    if (separate(blocker, own, geometry_.polygon(cluster.begin + l).corners(), found)) {
+      direction = found;
+      untried = true;
+    } else {
+      shafts[l] = Shaft::unknown;
+    }
+    open[l] = 0;
+  }
 }
 
 // With groups g and h of the patches, sum_(i in g, j in h) A_i^2 var F_ij <= tolerance^2 A_g^2 (and the same
@@ -100,29 +159,22 @@ void PairExchange::apply_visibility(int i, const ClusterPair& pair, ExchangeWork
                                     ClusterExchange& result) const {
   const PatchCluster& cluster = *pair.other;
   const int count = cluster.end - cluster.begin;
-  const std::span<const Eigen::Vector3d> own = geometry_.polygon(i).corners();
-  Shaft shaft = Shaft::unknown;
-  BlockerSet near;
+  std::array<Shaft, PairHeights::capacity> shafts;
+  shafts.fill(Shaft::unknown);
   if (pair.proofs) {
-    near = between(sides_.patch(i), sides_.cluster(cluster));
+    BlockerSet near = between(sides_.patch(i), sides_.cluster(cluster));
     near &= pair.candidates;
-    shaft = narrow(own, cluster.hull, near, workspace);
-  }
-  if (shaft == Shaft::clear) return;
-  if (shaft == Shaft::blocked) {
-    std::fill(result.kernel, result.kernel + count, 0.0);
-    return;
+    const Shaft all = narrow(geometry_.polygon(i).corners(), cluster.hull, near);
+    if (all == Shaft::unknown)
+      decide(i, cluster, near, workspace, shafts.data());
+    else
+      shafts.fill(all);
   }
   for (int l = 0; l < count; ++l) {
     const int j = cluster.begin + l;
     double& kernel = result.kernel[l];
-    if (kernel == 0) continue;
-    if (pair.proofs) {
-      BlockerSet last = between(sides_.patch(i), sides_.patch(j));
-      last &= near;
-      shaft = narrow(own, geometry_.polygon(j).corners(), last, workspace);
-    }
-    if (shaft == Shaft::clear) continue;
+    const Shaft shaft = shafts[static_cast<std::size_t>(l)];
+    if (kernel == 0 || shaft == Shaft::clear) continue;
     if (shaft == Shaft::blocked) {
       kernel = 0;
       continue;

@@ -48,7 +48,7 @@ class PairExchange {
     bool proofs = true;  ///< candidates holds every face that may come between; false: too many, rays decide
     BlockerSet candidates;
   };
-  ClusterPair relate(const PatchCluster& own, const PatchCluster& other, ExchangeWorkspace& workspace) const;
+  ClusterPair relate(const PatchCluster& own, const PatchCluster& other) const;
 
   /// The cheap part of relate: false only if the clusters face away from each other.
   bool may_exchange(const PatchCluster& own, const PatchCluster& other) const;
@@ -59,9 +59,15 @@ class PairExchange {
                 ClusterExchange& result) const;
 
  private:
-  enum class Shaft { clear, blocked, unknown };
-  Shaft narrow(const ShaftEnd& first, const ShaftEnd& second, BlockerSet& candidates,
-               ExchangeWorkspace& workspace) const;
+  enum class Shaft : unsigned char { clear, blocked, unknown };
+  // Keeps the candidates that may come between two ends.
+  Shaft narrow(const ShaftEnd& first, const ShaftEnd& second, BlockerSet& candidates) const;
+  // What the candidates prove about patch i and each patch of a cluster.
+  void decide(int i, const PatchCluster& cluster, const BlockerSet& candidates, ExchangeWorkspace& workspace,
+              Shaft* shafts) const;
+  // Sorts out what one blocker does to the still open pairs of patch i.
+  void decide(int i, const PatchCluster& cluster, std::size_t blocker, Eigen::Vector3d& direction,
+              unsigned char* open, Shaft* shafts) const;
   void apply_visibility(int i, const ClusterPair& pair, ExchangeWorkspace& workspace,
                         ClusterExchange& result) const;
   double wanted_kernel_error(int i, int j) const;

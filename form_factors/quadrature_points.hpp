@@ -32,6 +32,9 @@ class QuadraturePoints {
   /// other wholly.
   void exchange(int order, int i, int begin, int end, double* exchange) const;
 
+  const VectorLoops& loops() const { return loops_; }
+  const PatchArrays& arrays() const { return arrays_; }
+
  private:
   VectorLoops loops_;
   std::vector<double> storage_;

@@ -67,9 +67,30 @@ Support lowest(const Vector3d& direction, const ConvexPolygon& polygon) {
   return support;
 }
 
+}  // namespace
+
+Blocker::Blocker(const ConvexPolygon& face) : polygon(face), center(Vector3d::Zero()) {
+  plane.normal = face.area_vector().normalized();
+  plane.offset = plane.normal.dot(face[0]);
+  for (int k = 0; k < face.corner_count(); ++k) center += face[k] / face.corner_count();
+  for (int k = 0; k < 4; ++k) {
+    const int edge = std::min(k, face.corner_count() - 1);
+    const Vector3d inward = plane.normal.cross(face.next(edge) - face[edge]);
+    for (int axis = 0; axis < 3; ++axis) planes.edge_normal[k][axis] = inward[axis];
+    planes.edge_offset[k] = inward.dot(face[edge]);
+  }
+  for (int axis = 0; axis < 3; ++axis) planes.normal[axis] = plane.normal[axis];
+  planes.offset = plane.offset;
+}
+
+double lowest(const Vector3d& direction, const Blocker& blocker) {
+  return lowest(direction, blocker.polygon).along;
+}
+
 // Chung and Wang's separating vector algorithm (1996): reflect the trial direction until it separates. Gives
 // up after a few steps, which only costs a proof.
 bool separate(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second, Vector3d& direction) {
+  direction = blocker.center - 0.5 * (middle(first) + middle(second));
   if (direction.squaredNorm() < 1e-24) return false;
   direction.normalize();
   constexpr int steps = 8;
@@ -86,26 +107,12 @@ bool separate(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& sec
   return false;
 }
 
-}  // namespace
-
-Blocker::Blocker(const ConvexPolygon& face) : polygon(face), center(Vector3d::Zero()) {
-  plane.normal = face.area_vector().normalized();
-  plane.offset = plane.normal.dot(face[0]);
-  for (int k = 0; k < face.corner_count(); ++k) center += face[k] / face.corner_count();
-}
-
-bool misses_shaft(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second,
-                  Vector3d& direction) {
-  if (direction.squaredNorm() > 0 &&
-      lowest(direction, blocker.polygon).along > highest(direction, first, second).along + kTouch)
-    return true;
+bool misses_shaft(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second) {
   const Vector3d from = middle(first), to = middle(second);
   const double height_from = blocker.plane.height(from), height_to = blocker.plane.height(to);
   if (height_from * height_to < 0 && holds(blocker, crossing(from, height_from, to, height_to))) return false;
-  Vector3d trial = blocker.center - 0.5 * (from + to);
-  if (!separate(blocker, first, second, trial)) return false;
-  direction = trial;
-  return true;
+  Vector3d direction;
+  return separate(blocker, first, second, direction);
 }
 
 bool blocks_shaft(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second) {

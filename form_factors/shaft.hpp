@@ -1,6 +1,7 @@
 #pragma once
 
 #include "form_factors/convex_polygon.hpp"
+#include "form_factors/vector_loops.hpp"
 
 #include <Eigen/Core>
 
@@ -18,14 +19,20 @@ struct Blocker {
   ConvexPolygon polygon;
   Plane plane;
   Eigen::Vector3d center;
+  BlockerPlanes planes;
 };
 
 /// Proves, by a separating plane, that a blocker cannot come between any point of one end and any point of
-/// the other. Never wrong when true; false means "perhaps". `direction` is where to look first (the plane's
-/// normal, any length; zero: no idea) and becomes the one that separated: neighbouring pairs are mostly
-/// separated by the same plane.
-bool misses_shaft(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second,
-                  Eigen::Vector3d& direction);
+/// the other. Never wrong when true; false means "perhaps".
+bool misses_shaft(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second);
+
+/// The same for ends of which no segment from middle to middle is known to be cut: looks for a direction
+/// along which the whole blocker lies beyond both ends, and returns it (unit length) in `direction`.
+bool separate(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second,
+              Eigen::Vector3d& direction);
+
+/// The lowest point of a blocker along a direction.
+double lowest(const Eigen::Vector3d& direction, const Blocker& blocker);
 
 /// Proves that a blocker comes between every point of one end and every point of the other: it does as soon
 /// as it cuts all the segments from corner to corner, since every other crossing is a convex combination of
