@@ -7,6 +7,22 @@
 #include <utility>
 
 namespace radiosity {
+namespace {
+
+/// Throws UsageError unless there is either a symmetric kernel or a full matrix, of the mesh's size.
+void check_form_factors(const FormFactors& form_factors) {
+  if (!form_factors.mesh)
+    fail<UsageError>("the form factors have no mesh: an operator needs its areas and reflectances");
+  if ((form_factors.kernel == nullptr) == (form_factors.unsymmetric == nullptr))
+    fail<UsageError>("form factors have either a symmetric kernel or a full matrix; these have {}",
+                     form_factors.kernel ? "both" : "neither");
+  const Index n = form_factors.kernel ? form_factors.kernel->size() : form_factors.unsymmetric->rows();
+  const PatchMesh& mesh = *form_factors.mesh;
+  if (n != mesh.patch_count() || n != mesh.area.size() || n != mesh.reflectance.rows())
+    fail<UsageError>("form factors of size {} do not fit a mesh of {} patches", n, mesh.patch_count());
+}
+
+}  // namespace
 
 OperatorRegistry::OperatorRegistry(std::vector<OperatorEntry> entries) {
   for (OperatorEntry& entry : entries) add(std::move(entry));
@@ -25,6 +41,7 @@ std::unique_ptr<LinearOperator> OperatorRegistry::make(const std::string& spec_t
   for (const OperatorEntry& entry : entries_) {
     names.push_back(entry.name);
     if (entry.name != spec.name()) continue;
+    check_form_factors(form_factors);
     auto made = entry.make(spec, form_factors);
     spec.finish();
     return made;

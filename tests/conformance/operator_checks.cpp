@@ -1,0 +1,255 @@
+#include "tests/conformance/operator_checks.hpp"
+
+#include "foundation/error.hpp"
+#include "foundation/parallel.hpp"
+#include "foundation/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace radiosity {
+namespace {
+
+using Exact = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Field random_field(Index rows, Index columns, std::uint64_t seed) {
+  RandomStream random(seed);
+  Field field(rows, columns);
+  for (Index j = 0; j < columns; ++j)
+    for (Index i = 0; i < rows; ++i) field(i, j) = random.uniform(-1, 1);
+  return field;
+}
+
+/// The bits are the same; NaN equals itself.
+bool same_bits(const Field& a, const Field& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() &&
+         std::equal(a.data(), a.data() + a.size(), b.data(), [](double x, double y) {
+           return x == y ? std::signbit(x) == std::signbit(y) : std::isnan(x) && std::isnan(y);
+         });
+}
+
+/// Compares Y with M X, M = T of the column's channel or its transpose, within (2 n u |M| + entry_error) |X|.
+std::string compare(const OperatorReference& reference, bool transposed, const Field& X, const Field& Y) {
+  const auto n = static_cast<long double>(reference.size());
+  for (Index j = 0; j < X.cols(); ++j) {
+    const Exact& T = reference.matrix[static_cast<std::size_t>(j % reference.channels())];
+    for (Index i = 0; i < T.rows(); ++i) {
+      long double exact = 0;
+      long double bound = 0;
+      for (Index k = 0; k < T.cols(); ++k) {
+        const long double entry = transposed ? T(k, i) : T(i, k);
+        const long double x = X(k, j);
+        exact += entry * x;
+        bound += 2 * n * reference.unit_roundoff * std::fabs(entry * x);
+        if (reference.entry_error.size() > 0)
+          bound += (transposed ? reference.entry_error(k, i) : reference.entry_error(i, k)) * std::fabs(x);
+      }
+      if (!(std::fabs(Y(i, j) - exact) <= bound))
+        return fmt::format("{}: ({}, {}) is {}, should be {} within {}", transposed ? "T' X" : "T X", i, j,
+                           Y(i, j), static_cast<double>(exact), static_cast<double>(bound));
+    }
+  }
+  return {};
+}
+
+/// An upper bound of the spectral norm of |T|.
+double absolute_norm(const Exact& T) {
+  if (T.size() == 0) return 0;
+  const auto magnitudes = T.cwiseAbs();
+  return static_cast<double>(
+      std::sqrt(magnitudes.rowwise().sum().maxCoeff() * magnitudes.colwise().sum().maxCoeff()));
+}
+
+bool refused(const LinearOperator& transport, const ConstFieldRef& X, FieldRef Y) {
+  try {
+    transport.apply(X, Y);
+  } catch (const UsageError&) {
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string check_products(const LinearOperator& transport, const OperatorReference& reference) {
+  for (const Index fields : {1, 2}) {
+    const Field X = random_field(transport.size(), fields * transport.channels(), 51);
+    Field Y(X.rows(), X.cols());
+    transport.apply(X, Y);
+    if (std::string failure = compare(reference, false, X, Y); !failure.empty()) return failure;
+  }
+  return {};
+}
+
+std::string check_transposed(const LinearOperator& transport, const OperatorReference& reference) {
+  const auto* transposable = dynamic_cast<const TransposedApply*>(&transport);
+  if (transposable == nullptr) return {};
+  const Field X = random_field(transport.size(), transport.channels(), 52);
+  const Field Y = random_field(transport.size(), transport.channels(), 53);
+  Field TX(X.rows(), X.cols());
+  Field TY(X.rows(), X.cols());
+  transport.apply(X, TX);
+  transposable->apply_transposed(1, Y, 0, TY);
+  if (std::string failure = compare(reference, true, Y, TY); !failure.empty()) return failure;
+  for (Index j = 0; j < X.cols(); ++j) {
+    const double left = TX.col(j).dot(Y.col(j));
+    const double right = X.col(j).dot(TY.col(j));
+    const double bound = 4 * static_cast<double>(transport.size()) * reference.unit_roundoff *
+                         X.col(j).norm() * absolute_norm(reference.matrix[static_cast<std::size_t>(j)]) *
+                         Y.col(j).norm();
+    if (!(std::fabs(left - right) <= bound))
+      return fmt::format("<T x, y> = {} and <x, T' y> = {} differ by more than {}", left, right, bound);
+  }
+  return {};
+}
+
+std::string check_scaling(const LinearOperator& transport) {
+  for (const Index fields : {0, 1, 3, 17}) {
+    const Index columns = fields * transport.channels();
+    const Field X = random_field(transport.size(), columns, 54);
+    const Field before = random_field(transport.size(), columns, 55);
+    const Field unread = Field::Constant(transport.size(), columns, nan);
+
+    Field product = unread;
+    transport.apply(1, X, 0, product);
+    if (product.array().isNaN().any()) return "beta = 0 reads Y";
+
+    Field Y = before;
+    transport.apply(0, unread, 0.5, Y);
+    if (!same_bits(Y, 0.5 * before)) return "alpha = 0 does not leave beta Y";
+    Y = unread;
+    transport.apply(0, unread, 0, Y);
+    if ((Y.array() != 0).any()) return "alpha = beta = 0 does not leave 0";
+
+    Y = before;
+    transport.apply(2, X, -0.5, Y);
+    const Eigen::ArrayXXd allowed = 0x1p-50 * (2 * product.cwiseAbs() + before.cwiseAbs()).array();
+    if (!((Y - (2 * product - 0.5 * before)).array().abs() <= allowed).all())
+      return fmt::format("2 T X - Y / 2 is wrong for {} columns", columns);
+  }
+  return {};
+}
+
+std::string check_refusals(const LinearOperator& transport) {
+  const Index n = transport.size();
+  const Index c = transport.channels();
+  Field tall(n + 1, c);
+  if (!refused(transport, Field::Zero(n + 1, c), tall)) return "fields of n + 1 rows are not refused";
+  Field twice(n, 2 * c);
+  if (!refused(transport, Field::Zero(n, c), twice)) return "X and Y of different widths are not refused";
+  Field incomplete(n, c + 1);
+  if (c > 1 && !refused(transport, Field::Zero(n, c + 1), incomplete))
+    return "an incomplete set of channels is not refused";
+  if (n == 0) return {};
+  Field shared = Field::Zero(n, 2 * c);
+  if (!refused(transport, shared, shared)) return "Y = X is not refused";
+  Field wide = Field::Zero(n, 2 * c + 1);
+  if (!refused(transport, wide.leftCols(2 * c), wide.rightCols(2 * c)))
+    return "Y that overlaps X is not refused";
+  Field apart = Field::Zero(n, 2 * c);
+  if (refused(transport, apart.leftCols(c), apart.rightCols(c)))
+    return "separate columns of one matrix are refused";
+  return {};
+}
+
+std::string check_repeatability(const LinearOperator& transport) {
+  const Field X = random_field(transport.size(), 3 * transport.channels(), 56);
+  Field first(X.rows(), X.cols());
+  transport.apply(X, first);
+  for (const int threads : {1, 2, 8, 8}) {
+    const ThreadLimit limit(threads);
+    Field again(X.rows(), X.cols());
+    transport.apply(X, again);
+    if (!same_bits(first, again)) return fmt::format("the result differs with {} threads", threads);
+  }
+  return {};
+}
+
+std::string check_exact_zeros(const LinearOperator& transport, const OperatorReference& reference) {
+  const Index n = transport.size();
+  const Index c = transport.channels();
+  const Field X = random_field(n, c, 57);
+  Field plain(n, c);
+  transport.apply(X, plain);
+  for (Index j = 0; j < c; ++j)
+    for (Index i = 0; i < n; ++i)
+      if ((reference.matrix[static_cast<std::size_t>(j)].row(i).array() == 0).all() && plain(i, j) != 0)
+        return fmt::format("row {} of T is zero, but ({}, {}) of T X is {}", i, i, j, plain(i, j));
+
+  Field nothing = Field::Constant(n, c, nan);
+  transport.apply(Field::Zero(n, c), nothing);
+  if ((nothing.array() != 0).any()) return "T 0 is not 0";
+
+  // Two fields, because one column has no next column to leak into.
+  Field around_x = Field::Constant(n + 70, 2 * c + 2, nan);
+  around_x.block(3, 1, n, 2 * c) = X.replicate(1, 2);
+  Field around_y = Field::Constant(n + 70, 2 * c + 2, 0.25);
+  transport.apply(around_x.block(3, 1, n, 2 * c), around_y.block(3, 1, n, 2 * c));
+  if (!same_bits(around_y.block(3, 1, n, c), plain) || !same_bits(around_y.block(3, 1 + c, n, c), plain))
+    return "what lies around X leaks into the result";
+  around_y.block(3, 1, n, 2 * c).setConstant(0.25);
+  if ((around_y.array() != 0.25).any()) return "something around Y is written";
+  return {};
+}
+
+std::string check_certificate(const LinearOperator& transport, const OperatorReference& reference,
+                              const Eigen::VectorXd& root_area) {
+  const Certificate certificate = transport.certificate();
+  if (!certificate.spectral_radius_bound && !certificate.operator_error) return {};
+  if (certificate.method.empty()) return "the certificate does not say how it was obtained";
+  const Index n = transport.size();
+  const Index c = transport.channels();
+  for (Index j = 0; j < c && n > 0; ++j) {
+    const Exact& T = reference.matrix[static_cast<std::size_t>(j)];
+    // Power iteration gives lower bounds of rho(T) for non-negative T, and of ||T|| in the area norm.
+    Field X = Field::Ones(n, c);
+    double radius = 0;
+    double error = 0;
+    double norm = 0;
+    for (int iteration = 0; iteration < 30; ++iteration) {
+      Field Y(n, c);
+      transport.apply(X, Y);
+      const Eigen::VectorXd exact = (T * X.col(j).cast<long double>()).cast<double>();
+      const double length = root_area.cwiseProduct(X.col(j)).norm();
+      error = std::max(error, root_area.cwiseProduct(Y.col(j) - exact).norm() / length);
+      norm = std::max(norm, root_area.cwiseProduct(exact).norm() / length);
+      // Collatz and Wielandt: (T x)_i / x_i over the support of x >= 0 is nowhere above rho(T).
+      double smallest = std::numeric_limits<double>::infinity();
+      for (Index i = 0; i < n; ++i)
+        if (X(i, j) > 0) smallest = std::min(smallest, exact[i] / X(i, j));
+      radius = std::max(radius, smallest);
+      if (exact.norm() == 0) break;
+      X.col(j) = exact / exact.norm();
+    }
+    if (certificate.spectral_radius_bound && *certificate.spectral_radius_bound < radius * (1 - 1e-3))
+      return fmt::format("the spectral radius is at least {}, its bound {}", radius,
+                         *certificate.spectral_radius_bound);
+    // norm <= ||T||, so that a true certificate can only be missed here where norm is far below; the slack is
+    // for that.
+    if (certificate.operator_error && error > 2 * *certificate.operator_error * norm)
+      return fmt::format("A X is off by {} of ||X||, the certificate allows {} of ||T|| >= {}", error,
+                         *certificate.operator_error, norm);
+  }
+  return {};
+}
+
+std::string check_operator(const LinearOperator& transport, const OperatorReference& reference,
+                           const Eigen::VectorXd& root_area) {
+  std::string failures;
+  const auto note = [&](const char* check, const std::string& failure) {
+    if (!failure.empty()) failures += fmt::format("{}: {}\n", check, failure);
+  };
+  note("products", check_products(transport, reference));
+  note("transposed", check_transposed(transport, reference));
+  note("scaling", check_scaling(transport));
+  note("refusals", check_refusals(transport));
+  note("repeatability", check_repeatability(transport));
+  note("exact zeros", check_exact_zeros(transport, reference));
+  note("certificate", check_certificate(transport, reference, root_area));
+  return failures;
+}
+
+}  // namespace radiosity
