@@ -2,6 +2,7 @@
 
 #include "experiments/disc_cover.hpp"
 #include "render/bounding_box.hpp"
+#include "render/path_sampling.hpp"
 
 #include <Eigen/Geometry>
 
@@ -23,25 +24,6 @@ Index patch_by_area(const PatchMesh& mesh, double fraction) {
 }
 
 }  // namespace
-
-Vector3 point_on_patch(const PatchMesh& mesh, Index patch, double u, double v) {
-  const int corners = mesh.patches[static_cast<std::size_t>(patch)].corner_count;
-  const Vector3& origin = mesh.corner(patch, 0);
-  int second = 1;
-  if (corners == 4) {  // two triangles, the first with probability of its share of the area
-    const Vector3 diagonal = mesh.corner(patch, 2) - origin;
-    const double first_area = (mesh.corner(patch, 1) - origin).cross(diagonal).norm();
-    const double second_area = diagonal.cross(mesh.corner(patch, 3) - origin).norm();
-    const double share = first_area / (first_area + second_area);
-    second = u < share ? 1 : 2;
-    u = second == 1 ? u / share : (u - share) / (1 - share);
-  }
-  const double root = std::sqrt(u);
-  const double along_first = root * (1 - v);
-  const double along_second = root * v;
-  return origin + along_first * (mesh.corner(patch, second) - origin) +
-         along_second * (mesh.corner(patch, second + 1) - origin);
-}
 
 Light draw_area_light(const PatchMesh& mesh, RandomStream& random) {
   Light light;

@@ -12,7 +12,4 @@ Light draw_area_light(const PatchMesh& mesh, RandomStream& random);
 /// its centre.
 Eigen::VectorXd area_light_cover(const PatchMesh& mesh, const Light& light);
 
-/// A point of a patch, uniform by area, for (u, v) uniform in the unit square.
-Vector3 point_on_patch(const PatchMesh& mesh, Index patch, double u, double v);
-
 }  // namespace radiosity

@@ -1,9 +1,9 @@
 #include "experiments/point_light.hpp"
 
-#include "experiments/area_light.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 #include "render/bounding_box.hpp"
+#include "render/path_sampling.hpp"
 
 #include <Eigen/Geometry>
 
