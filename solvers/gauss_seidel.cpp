@@ -11,7 +11,7 @@ void GaussSeidel::begin() {
   const SpectralRadius radius = bound_spectral_radius(transport(), std::min(20, options().max_products));
   spend_products(radius.products);
   require_contraction(name(), radius);
-  rows_.emplace(name(), transport(), root_area(), options().matrix_bytes);
+  if (!rows_) rows_.emplace(name(), transport(), root_area(), options().matrix_bytes);
   mutable_radiosity() = emission();
   scaled_ = root_area().asDiagonal() * emission();
   failed_checks_.assign(static_cast<std::size_t>(emission().cols()), 0);

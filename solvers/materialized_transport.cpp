@@ -49,12 +49,11 @@ std::vector<Eigen::MatrixXd> transport_matrices(const LinearOperator& transport)
 }
 
 TransportRows::TransportRows(const std::string& name, const LinearOperator& transport,
-                             const Eigen::VectorXd& root_area, std::size_t limit) {
-  const auto* kernel = dynamic_cast<const KernelOperator*>(&transport);
-  require_memory(name, transport.size(), kernel != nullptr ? 1 : transport.channels(), limit);
-  if (kernel != nullptr) {
-    columns_.push_back(kernel_matrix(*kernel));
-    reflectance_ = kernel->reflectance();
+                             const Eigen::VectorXd& root_area, std::size_t limit)
+    : kernel_(dynamic_cast<const KernelOperator*>(&transport)) {
+  require_memory(name, transport.size(), kernel_ != nullptr ? 1 : transport.channels(), limit);
+  if (kernel_ != nullptr) {
+    columns_.push_back(kernel_matrix(*kernel_));
     return;
   }
   columns_ = transport_matrices(transport);
@@ -65,7 +64,8 @@ TransportRows::TransportRows(const std::string& name, const LinearOperator& tran
 }
 
 double TransportRows::gather(Index i, Index channel, const Eigen::VectorXd& scaled_field) const {
-  if (reflectance_.size() > 0) return reflectance_(i, channel) * columns_.front().col(i).dot(scaled_field);
+  if (kernel_ != nullptr)
+    return kernel_->reflectance()(i, channel) * columns_.front().col(i).dot(scaled_field);
   return columns_[static_cast<std::size_t>(channel)].col(i).dot(scaled_field);
 }
 

@@ -24,6 +24,7 @@ std::vector<Eigen::MatrixXd> transport_matrices(const LinearOperator& transport)
 /// lies under T, else one a channel. For solvers that go through T entry by entry.
 class TransportRows {
  public:
+  /// The operator outlives the rows, and a kernel's reflectance is read when it is needed: it may change.
   /// Throws Error if the entries take more than `limit` bytes.
   TransportRows(const std::string& name, const LinearOperator& transport, const Eigen::VectorXd& root_area,
                 std::size_t limit);
@@ -32,8 +33,8 @@ class TransportRows {
   double gather(Index i, Index channel, const Eigen::VectorXd& scaled_field) const;
 
  private:
+  const KernelOperator* kernel_;          ///< null where the matrices contain the reflectance
   std::vector<Eigen::MatrixXd> columns_;  ///< transposed, so that a row of T is contiguous
-  Eigen::MatrixXd reflectance_;           ///< n x channels; empty where the matrices contain it
 };
 
 }  // namespace radiosity

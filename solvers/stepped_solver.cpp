@@ -45,7 +45,24 @@ void SteppedSolver::start(const Field& emission) {
     relative_residuals_[j] = 1;
     open_.push_back(j);
   }
-  if (!open_.empty()) begin();
+  if (open_.empty()) return;
+  refuse_room_without_absorption();
+  begin();
+}
+
+/// Where nothing absorbs and rows sum to 1 but for the error of F, the answer would be that error's alone.
+void SteppedSolver::refuse_room_without_absorption() const {
+  constexpr double form_factor_error = 1e-6;
+  const auto* kernel = dynamic_cast<const KernelOperator*>(&transport());
+  if (kernel == nullptr) return;
+  const bool absorbs = std::none_of(open_.begin(), open_.end(), [&](Index j) {
+    return kernel->reflectance().col(j % channels()).minCoeff() >= 1;
+  });
+  if (absorbs) return;
+  Field gathered(size(), 1);
+  kernel->apply_kernel(root_area(), gathered);
+  const Eigen::VectorXd row_sums = gathered.col(0).cwiseQuotient(root_area());
+  if ((row_sums.array() - 1).abs().maxCoeff() <= form_factor_error) fail_as_singular();
 }
 
 void SteppedSolver::step() {

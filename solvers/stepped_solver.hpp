@@ -80,6 +80,8 @@ class SteppedSolver : public Solver {
   [[noreturn]] void fail_as_stagnated(Index column) const;
 
  private:
+  void refuse_room_without_absorption() const;
+
   std::string name_;
   SolverProblem problem_;
   Field emission_;

@@ -135,5 +135,24 @@ TEST(NearlySingular, AClosedRoomWithoutAbsorptionIsSaidToBeSingular) {
   }
 }
 
+TEST(NearlySingular, ErrorsInFormFactorsDoNotHideIt) {
+  // Rows that sum to 1 - 1e-9: the system can be solved, and the answer is 1e9 times nonsense.
+  Room room = closed_room(96, 3, 1);
+  room.kernel *= 1 - 1e-9;
+  const RoomKernel transport(room);
+  for (const std::string spec : {"cg", "gmres", "neumann", "gauss-seidel", "lu"}) {
+    try {
+      solve(*cpu_solvers().make(spec, {transport, room.root_area(), {}}), Field::Ones(room.size(), 1));
+      ADD_FAILURE() << spec << " answered";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("singular"), std::string::npos) << error.what();
+    }
+  }
+  room.reflectance(5, 0) = 0.5;  // a single patch that absorbs, and there is an answer
+  const RoomKernel absorbing(room);
+  const auto solver = cpu_solvers().make("cg", {absorbing, room.root_area(), {}});
+  EXPECT_LE(solve(*solver, Field::Ones(room.size(), 1)).maxCoeff(), 1e4);
+}
+
 }  // namespace
 }  // namespace radiosity::testing
