@@ -19,6 +19,32 @@ struct Sums {
   double standard_error() const { return variance.cwiseSqrt().sum(); }
 };
 
+/// Area-weighted mean squares over patches and channels, and what noise does to them.
+struct MeanSquares {
+  double difference = 0;      // of the difference, with the noise in it
+  double noise = 0;           // of the noise
+  double standard_error = 0;  // of difference - noise
+
+  MeanSquares(const PatchMesh& mesh, const Eigen::MatrixXd& differences, const Eigen::MatrixXd& noises) {
+    const double weight = mesh.area.sum() * static_cast<double>(noises.cols());
+    double variance = 0;
+    for (Index i = 0; i < mesh.patch_count(); ++i) {
+      double deviation = 0;
+      for (Index c = 0; c < noises.cols(); ++c) {
+        const double square = std::pow(differences(i, c), 2);
+        const double expected = std::pow(noises(i, c), 2);
+        difference += mesh.area[i] * square / weight;
+        noise += mesh.area[i] * expected / weight;
+        // (d + s z)^2 with standard normal z has the variance 4 d^2 s^2 + 2 s^4.
+        const double true_square = std::max(0.0, square - expected);
+        deviation += std::sqrt(4 * true_square * expected + 2 * expected * expected);
+      }
+      variance += std::pow(mesh.area[i] * deviation / weight, 2);
+    }
+    standard_error = std::sqrt(variance);
+  }
+};
+
 }  // namespace
 
 ReferenceComparison compare_with_reference(const PatchMesh& mesh, const Eigen::MatrixXd& B,
@@ -53,12 +79,14 @@ ReferenceComparison compare_with_reference(const PatchMesh& mesh, const Eigen::M
   ReferenceComparison result;
   result.mean_difference = whole.difference / whole.reference;
   result.mean_difference_standard_error = whole.standard_error() / whole.reference;
-  const double weight = whole.area * static_cast<double>(channels);
-  const double mean = whole.reference / weight;
-  const double mean_square = (mesh.area.asDiagonal() * difference.cwiseAbs2()).sum() / weight;
-  const double noise_square = (mesh.area.asDiagonal() * noise.cwiseAbs2()).sum() / weight;
-  result.rms_difference = std::sqrt(std::max(0.0, mean_square - noise_square)) / mean;
-  result.rms_standard_error = std::sqrt(noise_square) / mean;
+  const double mean = whole.reference / (whole.area * static_cast<double>(channels));
+  const MeanSquares squares(mesh, difference, noise);
+  const double true_square = std::max(0.0, squares.difference - squares.noise);
+  result.rms_difference = std::sqrt(true_square) / mean;
+  // The error of a square root; near zero, where it has no slope, how far the square may reach.
+  result.rms_difference_standard_error =
+      (std::sqrt(true_square + squares.standard_error) - std::sqrt(true_square)) / mean;
+  result.rms_standard_error = std::sqrt(squares.noise) / mean;
   result.beyond_four_standard_errors =
       static_cast<double>((difference.array().abs() > 4 * noise.array()).count()) /
       static_cast<double>(difference.size());

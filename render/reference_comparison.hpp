@@ -26,6 +26,8 @@ struct ReferenceComparison {
   /// Relative root mean square of the difference of single patches with the referee's own noise taken out
   /// (its mean square is subtracted; 0 where nothing is left): is the light in the right places?
   double rms_difference = 0;
+  /// Of rms_difference, if all channels had the same noise (they follow the same paths).
+  double rms_difference_standard_error = 0;
   /// Relative root mean square noise of the referee on single patches.
   double rms_standard_error = 0;
   /// Fraction of patches and channels that differ by more than 4 standard errors.
