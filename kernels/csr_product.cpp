@@ -11,32 +11,42 @@ namespace {
 
 using RowMajorField = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Y(row, :) = sum over the row's entries; X by rows, so that an entry's columns lie together.
-template <typename Scalar>
-void multiply_row(const CsrMatrix<Scalar>& M, Index row, const RowMajorField& X, double* sums, FieldRef Y) {
-  const Index columns = X.cols();
-  std::fill(sums, sums + columns, 0.0);
-  const auto r = static_cast<std::size_t>(row);
-  for (auto k = static_cast<std::size_t>(M.row_begin[r]); k < static_cast<std::size_t>(M.row_begin[r + 1]);
-       ++k) {
-    const double* x = X.data() + static_cast<Index>(M.column[k]) * columns;
-    const double value = static_cast<double>(M.value[k]);
-    for (Index c = 0; c < columns; ++c) sums[c] += value * x[c];
-  }
-  for (Index c = 0; c < columns; ++c) Y(row, c) = sums[c];
-}
+/// Sums that run side by side within a row, because an addition takes longer than a load. A row's entries go
+/// to them in turn, so that a column's result is the same whatever the number of columns.
+constexpr std::size_t sums_per_row = 4;
 
-/// One column: four sums side by side, because an addition takes longer than a load.
+/// One column.
 template <typename Scalar>
 double dot_row(const CsrMatrix<Scalar>& M, Index row, const double* x) {
   const auto r = static_cast<std::size_t>(row);
   auto k = static_cast<std::size_t>(M.row_begin[r]);
   const auto end = static_cast<std::size_t>(M.row_begin[r + 1]);
-  double sums[4] = {0, 0, 0, 0};
-  for (; k + 4 <= end; k += 4)
-    for (std::size_t s = 0; s < 4; ++s) sums[s] += static_cast<double>(M.value[k + s]) * x[M.column[k + s]];
-  for (; k < end; ++k) sums[0] += static_cast<double>(M.value[k]) * x[M.column[k]];
+  double sums[sums_per_row] = {};
+  for (; k + sums_per_row <= end; k += sums_per_row)
+    for (std::size_t s = 0; s < sums_per_row; ++s)
+      sums[s] += static_cast<double>(M.value[k + s]) * x[M.column[k + s]];
+  for (std::size_t s = 0; k < end; ++k, ++s) sums[s] += static_cast<double>(M.value[k]) * x[M.column[k]];
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// Y(row, :) for several columns; X by rows, so that what an entry multiplies lies together. `sums` has room
+/// for sums_per_row times the columns.
+template <typename Scalar>
+void multiply_row(const CsrMatrix<Scalar>& M, Index row, const RowMajorField& X, std::vector<double>& sums,
+                  FieldRef Y) {
+  const auto columns = static_cast<std::size_t>(X.cols());
+  std::fill(sums.begin(), sums.end(), 0.0);
+  const auto begin = static_cast<std::size_t>(M.row_begin[static_cast<std::size_t>(row)]);
+  const auto end = static_cast<std::size_t>(M.row_begin[static_cast<std::size_t>(row) + 1]);
+  for (std::size_t k = begin; k < end; ++k) {
+    const double* x = X.data() + static_cast<std::size_t>(M.column[k]) * columns;
+    double* sum = sums.data() + (k - begin) % sums_per_row * columns;
+    const auto value = static_cast<double>(M.value[k]);
+    for (std::size_t c = 0; c < columns; ++c) sum[c] += value * x[c];
+  }
+  for (std::size_t c = 0; c < columns; ++c)
+    Y(row, static_cast<Index>(c)) =
+        (sums[c] + sums[columns + c]) + (sums[2 * columns + c] + sums[3 * columns + c]);
 }
 
 template <typename Scalar>
@@ -53,9 +63,9 @@ void multiply_sparse(const CsrMatrix<Scalar>& M, const ConstFieldRef& X, FieldRe
   const RowMajorField by_rows = X;
   constexpr std::size_t rows_at_once = 32;
   parallel_for((rows + rows_at_once - 1) / rows_at_once, [&](std::size_t group) {
-    std::vector<double> sums(static_cast<std::size_t>(X.cols()));
+    std::vector<double> sums(sums_per_row * static_cast<std::size_t>(X.cols()));
     for (std::size_t i = group * rows_at_once; i < std::min(rows, (group + 1) * rows_at_once); ++i)
-      multiply_row(M, static_cast<Index>(i), by_rows, sums.data(), Y);
+      multiply_row(M, static_cast<Index>(i), by_rows, sums, Y);
   });
 }
 

@@ -34,7 +34,7 @@ class FaultyOperator final : public LinearOperator, public TransposedApply {
   ByteCount bytes() const override { return {}; }
   std::string describe() const override { return "faulty"; }
   Certificate certificate() const override {
-    const double bound = fault_ == Fault::certifies_too_little ? 1e-3 : 1.0;
+    const double bound = fault_ == Fault::certifies_too_little ? 1e-12 : 1.0;
     return {bound * matrix_.rowwise().sum().maxCoeff(), std::nullopt, "proved"};
   }
 
