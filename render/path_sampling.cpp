@@ -6,7 +6,7 @@
 
 namespace radiosity {
 
-Vector3 sample_patch(const PatchMesh& mesh, Index patch, double u, double v) {
+Vector3 point_on_patch(const PatchMesh& mesh, Index patch, double u, double v) {
   const Vector3 a = mesh.corner(patch, 0);
   Vector3 b = mesh.corner(patch, 1);
   Vector3 c = mesh.corner(patch, 2);

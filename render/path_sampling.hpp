@@ -8,7 +8,7 @@
 namespace radiosity {
 
 /// Maps (u, v) in [0, 1)^2 to a point of a patch, uniformly by area; connected where the patch is.
-Vector3 sample_patch(const PatchMesh& mesh, Index patch, double u, double v);
+Vector3 point_on_patch(const PatchMesh& mesh, Index patch, double u, double v);
 
 /// Maps (u, v) in [0, 1)^2 to a direction about `normal` with density cos / pi.
 Vector3 cosine_direction(const Vector3& normal, double u, double v);

@@ -93,7 +93,7 @@ Color Tracer::batch(Index patch, RandomStream& random, Counts& counts) const {
     const int stratum = direction_stratum[static_cast<std::size_t>(k)];
     const double u = jittered(stratum / strata);
     const double v = jittered(stratum % strata);
-    sum += path(patch, sample_patch(mesh_, patch, s, t), u, v, random, counts);
+    sum += path(patch, point_on_patch(mesh_, patch, s, t), u, v, random, counts);
   }
   return sum / batch_paths;
 }
@@ -135,7 +135,7 @@ Color Tracer::emitter_sample(Index patch, const Vector3& point, RandomStream& ra
   const Index emitter = emitters_.pick(random.uniform());
   const double s = random.uniform();
   const double t = random.uniform();
-  const Vector3 target = sample_patch(mesh_, emitter, s, t);
+  const Vector3 target = point_on_patch(mesh_, emitter, s, t);
   const double cosine = (target - point).normalized().dot(mesh_.normal.col(patch));
   const double density = emitter_density(emitter, point, target);
   if (cosine <= 0 || density <= 0) return Color::Zero();  // one of the two faces away

@@ -46,7 +46,7 @@ TEST(PatchRays, CoincidentTwinsShowTheirFront) {
     for (int k = 0; k < 1000; ++k) {
       const double u = random.uniform();
       const double v = random.uniform();
-      const PatchHit hit = rays.from_patch(i, sample_patch(mesh, i, u, v), Vector3::UnitZ());
+      const PatchHit hit = rays.from_patch(i, point_on_patch(mesh, i, u, v), Vector3::UnitZ());
       ASSERT_FALSE(hit.missed());
       ASSERT_TRUE(hit.front);
       ASSERT_LT(mesh.normal(2, hit.patch), 0);
@@ -65,7 +65,7 @@ TEST(PatchRays, ClosedRoomsDoNotLeak) {
     for (int k = 0; k < 1000; ++k) {
       const double s = random.uniform();
       const double t = random.uniform();
-      const Vector3 from = sample_patch(mesh, i, s, t);
+      const Vector3 from = point_on_patch(mesh, i, s, t);
       const auto other = static_cast<Index>(random.below(static_cast<std::uint64_t>(mesh.patch_count())));
       const Vector3 apart = mesh.corner(other, static_cast<int>(random.below(4))) - from;
       if (apart.dot(mesh.normal.col(i)) < 1e-3) continue;

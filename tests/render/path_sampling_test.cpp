@@ -25,7 +25,7 @@ TEST(PathSampling, PointsAreUniformOnAPatch) {
   for (int k = 0; k < count; ++k) {
     const double u = random.uniform();
     const double v = random.uniform();
-    const Vector3 point = sample_patch(mesh, 0, u, v);
+    const Vector3 point = point_on_patch(mesh, 0, u, v);
     mean += point / count;
     first_half += point.y() < point.x() * 2 / 3 ? 1 : 0;  // the triangle (0, 1, 2) has area 4, the other 1.5
   }

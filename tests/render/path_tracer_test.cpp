@@ -126,7 +126,7 @@ TEST(PathTracer, DirectLightCheckCatchesWrongCosine) {
         const double u = random.uniform();
         const double v = random.uniform();
         const PatchHit hit =
-            rays.from_patch(i, sample_patch(mesh, i, s, t), sample(mesh.normal.col(i), u, v));
+            rays.from_patch(i, point_on_patch(mesh, i, s, t), sample(mesh.normal.col(i), u, v));
         if (!hit.missed() && hit.front) mean(i, 0) += mesh.emission(hit.patch, 0) / paths;
       }
     }
