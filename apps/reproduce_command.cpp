@@ -1,0 +1,109 @@
+#include "apps/program.hpp"
+#include "apps/run_options.hpp"
+#include "apps/terminal_monitor.hpp"
+#include "experiments/first_light.hpp"
+#include "experiments/machine.hpp"
+#include "experiments/report.hpp"
+#include "foundation/error.hpp"
+#include "foundation/parallel.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace radiosity {
+namespace {
+
+struct ReproduceOptions {
+  std::vector<std::string> tables;
+  bool full = false;
+  std::filesystem::path folder = "results";
+  RunOptions run;
+};
+
+struct Experiment {
+  const char* name;
+  ReportSection (*run)(const ReproduceOptions& options, const std::string& command, const Program& program,
+                       Monitor& monitor);
+};
+
+ReportSection run_first_light(const ReproduceOptions& options, const std::string& command,
+                              const Program& program, Monitor& monitor) {
+  FirstLightOptions sizes;
+  if (options.full) {
+    sizes.patches = {300, 800, 1600, 3300, 6600, 13000};
+    sizes.reference_paths = 32768;
+  }
+  sizes.seed = options.run.seed;
+  return first_light(options.folder, command, sizes, program.operators, program.solvers, monitor);
+}
+
+constexpr std::array<Experiment, 1> experiments = {{{"first-light", run_first_light}}};
+
+void require_known_tables(const std::vector<std::string>& tables) {
+  std::string known;
+  for (const Experiment& experiment : experiments)
+    known += (known.empty() ? "" : ", ") + std::string(experiment.name);
+  for (const std::string& table : tables)
+    if (std::none_of(experiments.begin(), experiments.end(),
+                     [&](const Experiment& e) { return table == e.name; }))
+      fail<UsageError>("there is no table '{}'; the known ones are {}", table, known);
+}
+
+bool wanted(const ReproduceOptions& options, const Experiment& experiment) {
+  return options.tables.empty() ||
+         std::find(options.tables.begin(), options.tables.end(), experiment.name) != options.tables.end();
+}
+
+std::string machine_text(const Machine& machine) {
+  return fmt::format("{}, {} thread{}, {:.1f} GB/s read bandwidth, load {:.1f} at the start", machine.cpu,
+                     machine.threads, machine.threads == 1 ? "" : "s", machine.read_bandwidth_gb_s,
+                     machine.load);
+}
+
+void run_reproduce(const ReproduceOptions& options, const Program& program) {
+  const ThreadLimit limit(options.run.threads);
+  require_device(options.run);
+  require_known_tables(options.tables);
+  TerminalMonitor monitor(options.run.quiet);
+
+  Report report;
+  report.title = "radiosity: transport operators compared";
+  report.machine = machine_text(measure_machine());
+  report.date = fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
+  for (const Experiment& experiment : experiments) {
+    if (!wanted(options, experiment)) continue;
+    const std::string command =
+        fmt::format("radiosity reproduce {}{}", experiment.name, options.full ? " --full" : "");
+    report.sections.push_back(experiment.run(options, command, program, monitor));
+  }
+  const std::filesystem::path file = options.folder / "report.html";
+  write_report(file, report);
+  monitor.clear();
+  fmt::print("wrote {}\n", file.string());
+}
+
+}  // namespace
+
+void add_reproduce_command(CLI::App& app, const Program& program) {
+  CLI::App* command =
+      app.add_subcommand("reproduce", "run the experiments: tables and figures, into results/report.html");
+  const auto options = std::make_shared<ReproduceOptions>();
+  command->add_option("TABLE", options->tables, "first-light; default: all")->option_text(" ");
+  command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
+  command->add_option("--into", options->folder, "folder of the results; default results")
+      ->option_text("FOLDER");
+  add_run_options(*command, options->run);
+  command->callback([options, &program] { run_reproduce(*options, program); });
+}
+
+}  // namespace radiosity
