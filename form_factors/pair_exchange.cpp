@@ -91,12 +91,12 @@ void PairExchange::decide(int i, const PatchCluster& cluster, std::size_t blocke
   const QuadraturePoints& patches = geometry_.quadrature();
   const Blocker& blocker = occluders_.blockers()[blocker_number];
   const auto own = geometry_.polygon(i).corners();
-  std::array<unsigned char, PairHeights::capacity> answer;
+  std::array<double, PairHeights::capacity> answer;
 
   // A face that cuts the segment between two centres is in the way: of all of the pair, or of some.
   patches.loops().crosses(patches.arrays(), blocker.planes, i, cluster.begin, cluster.end, answer.data());
   for (int l = 0; l < count; ++l) {
-    if (!open[l] || !answer[static_cast<std::size_t>(l)]) continue;
+    if (!open[l] || answer[static_cast<std::size_t>(l)] == 0) continue;
     const bool all = blocks_shaft(blocker, own, geometry_.polygon(cluster.begin + l).corners());
     shafts[l] = all ? Shaft::blocked : Shaft::unknown;
     open[l] = 0;
@@ -111,12 +111,13 @@ void PairExchange::decide(int i, const PatchCluster& cluster, std::size_t blocke
       if (own_high < limit) {
         patches.loops().below(patches.arrays(), direction.data(), limit, cluster.begin, cluster.end,
                               answer.data());
-        for (int k = 0; k < count; ++k) open[k] &= !answer[static_cast<std::size_t>(k)];
+        for (int k = 0; k < count; ++k)
+          if (answer[static_cast<std::size_t>(k)] != 0) open[k] = 0;
       }
       untried = false;
     }
     if (!open[l]) continue;
-    Eigen::Vector3d found;
+    Eigen::Vector3d found = direction;
     if (separate(blocker, own, geometry_.polygon(cluster.begin + l).corners(), found)) {
       direction = found;
       untried = true;

@@ -24,11 +24,11 @@ HeightRange heights(const ShaftEnd& end, const Plane& plane) {
   return range;
 }
 
-bool holds(const Blocker& blocker, const Vector3d& point_in_plane) {
-  const ConvexPolygon& polygon = blocker.polygon;
-  for (int k = 0; k < polygon.corner_count(); ++k) {
-    const Vector3d edge = polygon.next(k) - polygon[k];
-    if (edge.cross(point_in_plane - polygon[k]).dot(blocker.plane.normal) < 0) return false;
+bool holds(const Blocker& blocker, const Vector3d& p) {
+  const BlockerPlanes& planes = blocker.planes;
+  for (int k = 0; k < blocker.polygon.corner_count(); ++k) {
+    const double* const inward = planes.edge_normal[k];
+    if (inward[0] * p.x() + inward[1] * p.y() + inward[2] * p.z() < planes.edge_offset[k]) return false;
   }
   return true;
 }
@@ -90,10 +90,10 @@ double lowest(const Vector3d& direction, const Blocker& blocker) {
 // Chung and Wang's separating vector algorithm (1996): reflect the trial direction until it separates. Gives
 // up after a few steps, which only costs a proof.
 bool separate(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd& second, Vector3d& direction) {
-  direction = blocker.center - 0.5 * (middle(first) + middle(second));
+  if (direction.squaredNorm() == 0) direction = blocker.center - 0.5 * (middle(first) + middle(second));
   if (direction.squaredNorm() < 1e-24) return false;
   direction.normalize();
-  constexpr int steps = 8;
+  constexpr int steps = 6;
   for (int step = 0; step < steps; ++step) {
     const Support shaft = highest(direction, first, second);
     const Support face = lowest(direction, blocker.polygon);
@@ -111,7 +111,7 @@ bool misses_shaft(const Blocker& blocker, const ShaftEnd& first, const ShaftEnd&
   const Vector3d from = middle(first), to = middle(second);
   const double height_from = blocker.plane.height(from), height_to = blocker.plane.height(to);
   if (height_from * height_to < 0 && holds(blocker, crossing(from, height_from, to, height_to))) return false;
-  Vector3d direction;
+  Vector3d direction = Vector3d::Zero();
   return separate(blocker, first, second, direction);
 }
 
