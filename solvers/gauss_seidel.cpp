@@ -1,9 +1,17 @@
 #include "solvers/gauss_seidel.hpp"
 
+#include "foundation/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace radiosity {
+
+namespace {
+
+constexpr int sweeps_until_judged = 100;
+
+}  // namespace
 
 GaussSeidel::GaussSeidel(const SolverProblem& problem) : SteppedSolver("gauss-seidel", problem) {}
 
@@ -15,10 +23,13 @@ void GaussSeidel::begin() {
   mutable_radiosity() = emission();
   scaled_ = root_area().asDiagonal() * emission();
   failed_checks_.assign(static_cast<std::size_t>(emission().cols()), 0);
+  last_change_.assign(static_cast<std::size_t>(emission().cols()), 0);
+  sweeps_ = 0;
 }
 
 void GaussSeidel::advance() {
   spend_products();
+  ++sweeps_;
   std::vector<Index> promising;
   for (const Index j : open_columns()) {
     const double change = sweep(j);
@@ -26,6 +37,8 @@ void GaussSeidel::advance() {
     // After a sweep the residual is U times the change, U the part of T above the diagonal: at most about the
     // change.
     if (small_enough(j, 0.5 * change)) promising.push_back(j);
+    if (sweeps_ % sweeps_until_judged == 0) refuse_if_too_slow(j, change);
+    last_change_[static_cast<std::size_t>(j)] = change;
   }
   if (!promising.empty()) check(promising);
 }
@@ -40,6 +53,20 @@ double GaussSeidel::sweep(Index j) {
   }
   scaled_.col(j) = field;
   return std::sqrt(squared_change);
+}
+
+void GaussSeidel::refuse_if_too_slow(Index j, double change) const {
+  const double rate = change / last_change_[static_cast<std::size_t>(j)];
+  const double wanted = options().tolerance * emission_norm(j) / change;
+  if (!(rate < 1 && wanted < 1)) return;
+  const double remaining = std::log(wanted) / std::log(rate);
+  const int budget = options().max_products - products();
+  if (remaining > 2.0 * budget)
+    fail(
+        "{}: needs about {:.0f} more sweeps at its present rate and has a budget of {}: use cg or gmres, or "
+        "allow more "
+        "products.",
+        name(), remaining, budget);
 }
 
 void GaussSeidel::check(const std::vector<Index>& columns) {

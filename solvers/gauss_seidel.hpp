@@ -23,11 +23,14 @@ class GaussSeidel final : public SteppedSolver {
   void begin() override;
   void advance() override;
   double sweep(Index j);
+  void refuse_if_too_slow(Index j, double change) const;
   void check(const std::vector<Index>& columns);
 
   std::optional<TransportRows> rows_;
-  Field scaled_;                    ///< A^{1/2} B
-  std::vector<int> failed_checks_;  ///< in a row without gain, for each column
+  Field scaled_;                     ///< A^{1/2} B
+  std::vector<int> failed_checks_;   ///< in a row without gain, for each column
+  std::vector<double> last_change_;  ///< of the sweep before, for each column
+  int sweeps_ = 0;
 };
 
 }  // namespace radiosity

@@ -97,17 +97,19 @@ TEST(NearlySingular, CountingUpdatesInsteadOfResidualsIsNoticed) {
   EXPECT_GT(std::abs(steps - neumann_count(room, E, reflectance, 1e-6)), 2);
 }
 
-TEST(NearlySingular, NeumannRefusesWhatItsBudgetCannotReach) {
+TEST(NearlySingular, StationarySolversRefuseWhatTheirBudgetCannotReach) {
   const Room room = closed_room(64, 3, 1 - 1e-8);
   const RoomKernel transport(room);
-  const auto solver = cpu_solvers().make("neumann", {transport, room.root_area(), {}});
-  try {
-    solver->start(Field::Ones(room.size(), 1));
-    FAIL() << "1.4e9 products were accepted";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("budget"), std::string::npos) << error.what();
+  for (const std::string spec : {"neumann", "gauss-seidel"}) {
+    const auto solver = cpu_solvers().make(spec, {transport, room.root_area(), {}});
+    try {
+      solve(*solver, Field::Ones(room.size(), 1));
+      FAIL() << spec << " took 1e9 products";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("budget"), std::string::npos) << error.what();
+    }
+    EXPECT_LE(solver->products(), 150) << spec;
   }
-  EXPECT_LE(solver->products(), 25);
 }
 
 TEST(NearlySingular, AClosedRoomWithoutAbsorptionIsSaidToBeSingular) {
