@@ -1,0 +1,289 @@
+#include "experiments/apply_benchmark.hpp"
+
+#include "foundation/error.hpp"
+#include "foundation/parallel.hpp"
+#include "foundation/stopwatch.hpp"
+#include "kernels/aligned_memory.hpp"
+
+#include <cblas.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <unistd.h>
+
+namespace radiosity {
+namespace {
+
+double load_average() {
+  double average = 0;
+  return getloadavg(&average, 1) == 1 ? average : 0;
+}
+
+/// OpenBLAS keeps its number of threads for the whole process: it gets its own back.
+class BlasThreads {
+ public:
+  explicit BlasThreads(int count) : before_(openblas_get_num_threads()) { openblas_set_num_threads(count); }
+  ~BlasThreads() { openblas_set_num_threads(before_); }
+  BlasThreads(const BlasThreads&) = delete;
+  BlasThreads& operator=(const BlasThreads&) = delete;
+
+ private:
+  int before_;
+};
+
+/// Reads a large buffer at the speed of memory.
+class Stream {
+ public:
+  explicit Stream(std::size_t bytes)
+      : chunk_words_(std::max<std::size_t>(bytes / sizeof(double) / chunks / lanes, 1) * lanes),
+        words_(chunks * chunk_words_),
+        sums_(chunks) {
+    parallel_for(chunks, [&](std::size_t chunk) { std::fill_n(begin(chunk), chunk_words_, 1.0); });
+  }
+
+  std::size_t bytes() const { return chunks * chunk_words_ * sizeof(double); }
+
+  void read() {
+    parallel_for(chunks, [&](std::size_t chunk) { sums_[chunk] = sum(begin(chunk)); });
+    if (std::any_of(sums_.begin(), sums_.end(),
+                    [&](double total) { return total != static_cast<double>(chunk_words_); }))
+      fail("the memory does not hold what was written to it");
+  }
+
+ private:
+  static constexpr std::size_t chunks = 256;
+  static constexpr std::size_t lanes = 32;
+
+  double* begin(std::size_t chunk) const { return words_.data() + chunk * chunk_words_; }
+
+  /// 32 sums side by side, so that the loop waits for memory and not for its own additions.
+  double sum(const double* words) const {
+    double sums[lanes] = {};
+    for (std::size_t i = 0; i < chunk_words_; i += lanes)
+      for (std::size_t k = 0; k < lanes; ++k) sums[k] += words[i + k];
+    double total = 0;
+    for (const double part : sums) total += part;
+    return total;
+  }
+
+  std::size_t chunk_words_;
+  AlignedBuffer<double> words_;
+  std::vector<double> sums_;
+};
+
+/// A kernel in which every entry is positive and rows sum to less than 1.
+FormFactors synthetic_form_factors(Index n) {
+  auto kernel = std::make_shared<SymmetricTiles<double>>(n, [](Index, Index) { return true; });
+  constexpr Index size = SymmetricTiles<double>::tile_size;
+  parallel_for(static_cast<std::size_t>(kernel->tile_rows()), [&](std::size_t row) {
+    const auto I = static_cast<Index>(row);
+    for (Index tile = kernel->row_begin(I); tile < kernel->row_begin(I + 1); ++tile)
+      for (Index r = 0; r < std::min(size, n - I * size); ++r)
+        for (Index c = 0; c < std::min(size, n - kernel->tile_column(tile) * size); ++c) {
+          const Index i = I * size + r;
+          const Index j = kernel->tile_column(tile) * size + c;
+          kernel->tile_data(tile)[r * size + c] =
+              static_cast<double>(1 + (i + j) % 17) / (18.0 * static_cast<double>(n));
+        }
+  });
+  auto mesh = std::make_shared<PatchMesh>();
+  mesh->patches.resize(static_cast<std::size_t>(n));
+  mesh->area = Eigen::VectorXd::Ones(n);
+  mesh->reflectance = Eigen::MatrixXd::Constant(n, 1, 0.5);
+  mesh->emission = Eigen::MatrixXd::Zero(n, 1);
+  FormFactors form_factors;
+  form_factors.mesh = mesh;
+  form_factors.kernel = kernel;
+  form_factors.exposed = Eigen::VectorXd::Ones(n);
+  return form_factors;
+}
+
+/// Everything that is timed; a function that multiplies once.
+struct Competitor {
+  std::string name;
+  Index columns;
+  std::size_t bytes;
+  std::function<void()> multiply;
+  std::vector<double> seconds = {};
+};
+
+class Contest {
+ public:
+  Contest(const OperatorRegistry& registry, const ApplyBenchmarkOptions& options)
+      : n_(options.size),
+        form_factors_(synthetic_form_factors(n_)),
+        single_(n_, n_),
+        double_(n_, n_),
+        stream_(options.stream_bytes) {
+    single_.setConstant(1e-3F);
+    double_.setConstant(1e-3);
+    competitors_.push_back({"read", 0, stream_.bytes(), [this] { stream_.read(); }});
+    for (const Index columns : options.columns) add_libraries(columns);
+    for (const std::string& spec : specs(registry, options)) {
+      operators_.push_back(registry.make(spec, form_factors_));
+      for (const Index columns : options.columns) add_operator(*operators_.back(), spec, columns);
+    }
+  }
+
+  ApplyBenchmark run(double seconds) {
+    ApplyBenchmark result;
+    result.size = n_;
+    result.threads = ThreadLimit::current();
+    result.load_before = load_average();
+    const BlasThreads blas_threads(result.threads);
+    for (Competitor& competitor : competitors_) competitor.seconds.clear();
+    const Stopwatch total;
+    do {
+      for (Competitor& competitor : competitors_) {
+        const Stopwatch watch;
+        competitor.multiply();
+        competitor.seconds.push_back(watch.seconds());
+      }
+      ++result.repetitions;
+    } while (total.seconds() < seconds);
+    result.load_after = load_average();
+    fill_rows(result);
+    return result;
+  }
+
+ private:
+  static std::vector<std::string> specs(const OperatorRegistry& registry,
+                                        const ApplyBenchmarkOptions& options) {
+    if (!options.operators.empty()) return options.operators;
+    std::vector<std::string> all;
+    for (const OperatorEntry& entry : registry.entries()) {
+      all.push_back(entry.defaults);
+      if (entry.name == "dense") all.insert(all.end(), {"dense:f32", "dense:f16"});
+    }
+    return all;
+  }
+
+  void add_libraries(Index columns) {
+    const auto entries = static_cast<std::size_t>(n_ * n_);
+    const auto n = static_cast<int>(n_);
+    auto x32 = std::make_shared<Eigen::MatrixXf>(Eigen::MatrixXf::Ones(n_, columns));
+    auto y32 = std::make_shared<Eigen::MatrixXf>(n_, columns);
+    if (columns == 1) {
+      auto x64 = std::make_shared<Eigen::VectorXd>(Eigen::VectorXd::Ones(n_));
+      auto y64 = std::make_shared<Eigen::VectorXd>(n_);
+      competitors_.push_back({"OpenBLAS sgemv", 1, entries * sizeof(float), [=, this] {
+                                cblas_sgemv(CblasColMajor, CblasTrans, n, n, 1, single_.data(), n,
+                                            x32->data(), 1, 0, y32->data(), 1);
+                              }});
+      competitors_.push_back({"OpenBLAS dgemv", 1, entries * sizeof(double), [=, this] {
+                                cblas_dgemv(CblasColMajor, CblasTrans, n, n, 1, double_.data(), n,
+                                            x64->data(), 1, 0, y64->data(), 1);
+                              }});
+      competitors_.push_back({"Eigen float", 1, entries * sizeof(float),
+                              [=, this] { y32->col(0).noalias() = single_.transpose() * x32->col(0); }});
+    } else {
+      const auto c = static_cast<int>(columns);
+      competitors_.push_back({"OpenBLAS sgemm", columns, entries * sizeof(float), [=, this] {
+                                cblas_sgemm(CblasColMajor, CblasTrans, CblasNoTrans, n, c, n, 1,
+                                            single_.data(), n, x32->data(), n, 0, y32->data(), n);
+                              }});
+      competitors_.push_back({"Eigen float", columns, entries * sizeof(float),
+                              [=, this] { y32->noalias() = single_.transpose() * *x32; }});
+    }
+  }
+
+  void add_operator(const LinearOperator& transport, const std::string& spec, Index columns) {
+    auto X = std::make_shared<Field>(Field::Ones(n_, columns));
+    auto Y = std::make_shared<Field>(n_, columns);
+    competitors_.push_back(
+        {spec, columns, transport.bytes().total(), [&transport, X, Y] { transport.apply(*X, *Y); }});
+  }
+
+  void fill_rows(ApplyBenchmark& result) const {
+    double sgemv = 0;
+    for (const Competitor& competitor : competitors_) {
+      std::vector<double> sorted = competitor.seconds;
+      std::sort(sorted.begin(), sorted.end());
+      const double rate = 1e-9 * static_cast<double>(competitor.bytes) / sorted.front();
+      if (competitor.name == "read") {
+        result.read_bandwidth_gb_s = rate;
+        continue;
+      }
+      if (competitor.name == "OpenBLAS sgemv") sgemv = sorted.front();
+      result.rows.push_back({competitor.name, competitor.columns, competitor.bytes, sorted.front(),
+                             sorted[sorted.size() / 2], rate / result.read_bandwidth_gb_s,
+                             sgemv * static_cast<double>(competitor.columns) / sorted.front()});
+    }
+  }
+
+  Index n_;
+  FormFactors form_factors_;
+  Eigen::MatrixXf single_;
+  Eigen::MatrixXd double_;
+  Stream stream_;
+  std::vector<std::unique_ptr<LinearOperator>> operators_;
+  std::vector<Competitor> competitors_;
+};
+
+/// Bytes that can be had without swapping; all there are where the system does not say.
+double available_memory() {
+  std::ifstream information("/proc/meminfo");
+  std::string key;
+  double kilobytes = 0;
+  for (std::string unit; information >> key >> kilobytes; std::getline(information, unit))
+    if (key == "MemAvailable:") return 1024 * kilobytes;
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+void check_options(const ApplyBenchmarkOptions& options) {
+  if (options.size < 1 || options.size > 1 << 20)
+    fail<UsageError>("a benchmark of {} patches: choose 1 to {}", options.size, 1 << 20);
+  if (!(options.seconds > 0))
+    fail<UsageError>("a benchmark of {} s: give it a positive time", options.seconds);
+  for (const Index columns : options.columns)
+    if (columns < 1) fail<UsageError>("a benchmark with {} columns: choose at least 1", columns);
+  // Double and float for the libraries (12 bytes an entry), the kernel and its copies (8), csr (12).
+  const double needed = 32.0 * static_cast<double>(options.size) * static_cast<double>(options.size) +
+                        static_cast<double>(options.stream_bytes);
+  const double free =
+      static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed > free)
+    fail("a benchmark of {} patches needs {:.1f} GB and {:.1f} GB are free: choose fewer patches",
+         options.size, 1e-9 * needed, 1e-9 * free);
+}
+
+}  // namespace
+
+std::vector<ApplyBenchmark> benchmark_apply(const OperatorRegistry& registry,
+                                            const ApplyBenchmarkOptions& options) {
+  check_options(options);
+  ApplyBenchmarkOptions wanted = options;
+  // Ratios are to sgemv, which is timed with one column.
+  if (std::find(wanted.columns.begin(), wanted.columns.end(), 1) == wanted.columns.end())
+    wanted.columns.insert(wanted.columns.begin(), 1);
+  std::sort(wanted.columns.begin(), wanted.columns.end());
+  Contest contest(registry, wanted);
+  std::vector<ApplyBenchmark> results;
+  for (const int threads : options.threads) {
+    const ThreadLimit limit(threads);
+    results.push_back(contest.run(options.seconds));
+  }
+  return results;
+}
+
+void print_apply_benchmark(const std::vector<ApplyBenchmark>& results, std::ostream& out) {
+  for (const ApplyBenchmark& result : results) {
+    fmt::print(out,
+               "n = {}, {} thread{}, {} repetitions, load {:.1f} to {:.1f}, read bandwidth {:.1f} GB/s\n",
+               result.size, result.threads, result.threads == 1 ? "" : "s", result.repetitions,
+               result.load_before, result.load_after, result.read_bandwidth_gb_s);
+    fmt::print(out, "  {:<16} {:>7} {:>9} {:>9} {:>9} {:>14} {:>14}\n", "product", "columns", "MB", "min ms",
+               "median ms", "of bandwidth", "x sgemv/column");
+    for (const ApplyBenchmarkRow& row : result.rows)
+      fmt::print(out, "  {:<16} {:>7} {:>9.1f} {:>9.2f} {:>9.2f} {:>14.2f} {:>14.2f}\n", row.name,
+                 row.columns, 1e-6 * static_cast<double>(row.bytes), 1e3 * row.seconds_min,
+                 1e3 * row.seconds_median, row.bandwidth_fraction, row.sgemv_ratio);
+  }
+}
+
+}  // namespace radiosity
