@@ -32,7 +32,8 @@ Scene import_scene(const std::filesystem::path& file) {
     fail("'{}' is of no known format; OBJ, PLY, STL, glTF and GLB can be read, told by the extension",
          file.string());
   if (!std::filesystem::exists(file)) fail("there is no file '{}'", file.string());
-  return extension == ".obj" ? import_obj(file) : import_with_assimp(file);
+  if (extension == ".obj") return import_obj(file);
+  return extension == ".ply" ? import_ply(file) : import_with_assimp(file);
 }
 
 Scene open_scene(const std::string& name_or_file) {

@@ -17,6 +17,24 @@
 namespace radiosity {
 namespace {
 
+/// Blanks out comments behind statements, which the parser takes for part of them.
+std::string without_comments(std::string text) {
+  bool comment = false;
+  char before = '\n';
+  for (char& c : text) {
+    const bool line_end = c == '\n' || c == '\r';
+    const bool after_blank = before == '\n' || before == '\r' || before == ' ' || before == '\t';
+    comment = !line_end && (comment || (c == '#' && after_blank));
+    before = c;
+    if (comment) c = ' ';
+  }
+  return text;
+}
+
+std::string trimmed(const std::string& name) {
+  return name.substr(0, name.find_last_not_of(" \t") + 1);
+}
+
 /// Reads material libraries beside the OBJ file; a missing one is a note.
 class Libraries final : public tinyobj::MaterialReader {
  public:
@@ -32,7 +50,7 @@ class Libraries final : public tinyobj::MaterialReader {
     }
     const std::string text = read_text(file.string());
     for (const auto& [material, entry] : scan_mtl(file.string(), text)) entries[material] = entry;
-    std::istringstream stream(text);
+    std::istringstream stream(without_comments(text));
     tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
     return true;
   }
@@ -49,20 +67,6 @@ struct Parsed {
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
 };
-
-/// Blanks out comments behind statements, which the parser takes for part of them.
-std::string without_comments(std::string text) {
-  bool comment = false;
-  char before = '\n';
-  for (char& c : text) {
-    const bool line_end = c == '\n' || c == '\r';
-    const bool after_blank = before == '\n' || before == '\r' || before == ' ' || before == '\t';
-    comment = !line_end && (comment || (c == '#' && after_blank));
-    before = c;
-    if (comment) c = ' ';
-  }
-  return text;
-}
 
 Parsed parse(const std::string& file, const std::string& text, Libraries& libraries) {
   Parsed parsed;
@@ -84,7 +88,7 @@ void add_materials(Scene& scene, const ObjScan& scan, const Parsed& parsed, cons
     const auto entry = libraries.entries.find(name);
     undefined += !name.empty() && entry == libraries.entries.end();
     for (const tinyobj::material_t& read : parsed.materials) {
-      if (read.name != name || entry == libraries.entries.end()) continue;
+      if (trimmed(read.name) != name || entry == libraries.entries.end()) continue;
       if (entry->second.has_diffuse)
         material.reflectance = Color(read.diffuse[0], read.diffuse[1], read.diffuse[2]);
       material.emission = std::numbers::pi * Color(read.emission[0], read.emission[1], read.emission[2]);

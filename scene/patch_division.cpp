@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kMostPatches = 5e7;  // more would not fit in memory, and is a slip of the keyboard
 
+constexpr std::ptrdiff_t kFewCovered = 64;
+
 class FaceDivider {
  public:
   FaceDivider(const Scene& scene, const std::vector<bool>& used, const Covers& covers)
@@ -24,6 +26,9 @@ class FaceDivider {
       area_ += area_vector(polygons_[f]).norm();
       ++face_count_;
     }
+    const auto covered =
+        std::count_if(covers.begin(), covers.end(), [](const auto& list) { return !list.empty(); });
+    few_covered_ = covered <= kFewCovered;
   }
 
   Index face_count() const { return face_count_; }
@@ -54,9 +59,7 @@ class FaceDivider {
 
   Division by_count(Index count) {
     check_size(static_cast<double>(count), 0);
-    if (only_triangles_ &&
-        std::all_of(covers_.begin(), covers_.end(), [](const auto& list) { return list.empty(); }))
-      return triangles_by_count(count);
+    if (only_triangles_) return triangles_by_count(count);
     return by_edge(edge_for(count), 0);
   }
 
@@ -98,7 +101,7 @@ class FaceDivider {
     Index count = 0;
     for (std::size_t f = 0; f < polygons_.size(); ++f) {
       if (polygons_[f].empty()) continue;
-      if (f < covers_.size() && !covers_[f].empty()) {
+      if (few_covered_ && f < covers_.size() && !covers_[f].empty()) {
         Division one = empty();
         add(one, f, cells(f, edge, 0));
         count += static_cast<Index>(one.parts[f].size());
@@ -126,22 +129,33 @@ class FaceDivider {
     return count_for(fine) - count <= count - count_for(coarse) ? fine : coarse;
   }
 
+  /// Contacts change the number by what they remove and cut, which is known only afterwards: a few rounds
+  /// come close.
   Division triangles_by_count(Index count) const {
     std::vector<Polygon> triangles;
     for (const Polygon& polygon : polygons_)
       if (!polygon.empty()) triangles.push_back(polygon);
-    std::vector<std::vector<Polygon>> parts = bisect_to_count(triangles, count);
-    Division result = empty();
-    auto next = parts.begin();
-    for (std::size_t f = 0; f < polygons_.size(); ++f)
-      if (!polygons_[f].empty()) result.parts[f] = std::move(*next++);
-    return result;
+    Index wanted = count;
+    for (int round = 0;; ++round) {
+      std::vector<std::vector<Polygon>> parts = bisect_to_count(triangles, wanted);
+      Division result = empty();
+      auto next = parts.begin();
+      Index reached = 0;
+      for (std::size_t f = 0; f < polygons_.size(); ++f) {
+        if (polygons_[f].empty()) continue;
+        add(result, f, std::move(*next++));
+        reached += static_cast<Index>(result.parts[f].size());
+      }
+      if (reached == count || round == 3) return result;
+      wanted = std::max<Index>(wanted + count - reached, static_cast<Index>(triangles.size()));
+    }
   }
 
   const Covers& covers_;
   double tolerance_;
   std::vector<Polygon> polygons_;  // of each face; empty where unused
   bool only_triangles_ = true;
+  bool few_covered_ = true;  // so that a search for the number of patches can afford to cut them
   double area_ = 0;
   Index face_count_ = 0;
 };

@@ -51,21 +51,27 @@ bool TextLines::next() {
 }
 
 double TextLines::finite_number(std::size_t k) const {
-  const std::string_view word = words_[k];
-  const char* start = word.data() + (word.front() == '+' ? 1 : 0);
-  const char* end = word.data() + word.size();
-  double value = 0;
-  const auto [stop, error] = std::from_chars(start, end, value);
-  // Numbers too small for a double are zero; too large ones are errors.
-  if (error == std::errc::result_out_of_range && stop == end && word.find("e-") != std::string_view::npos)
-    return 0;
-  if (error != std::errc{} || stop != end) fail_here(fmt::format("'{}' is not a number", word));
-  if (!std::isfinite(value)) fail_here(fmt::format("'{}' is not finite", word));
-  return value;
+  const std::optional<double> value = parse_number(words_[k]);
+  if (!value) fail_here(fmt::format("'{}' is not a number", words_[k]));
+  if (!std::isfinite(*value)) fail_here(fmt::format("'{}' is not finite", words_[k]));
+  return *value;
 }
 
 void TextLines::fail_here(std::string_view text) const {
   fail("{}:{}: {}", file_, number_, text);
+}
+
+std::optional<double> parse_number(std::string_view word) {
+  if (word.empty()) return std::nullopt;
+  const char* start = word.data() + (word.front() == '+' ? 1 : 0);
+  const char* end = word.data() + word.size();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(start, end, value);
+  // What is too small for a double is zero; what is too large is refused.
+  const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+  if (error == std::errc::result_out_of_range && stop == end && tiny) return 0.0;
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return value;
 }
 
 std::string read_text(const std::string& file) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,10 @@ class TextLines {
   std::vector<std::string_view> words_;
   std::size_t number_ = 0;
 };
+
+/// A number written in decimal or as nan or inf, correctly rounded; nothing if it is not one or too large for
+/// a double.
+std::optional<double> parse_number(std::string_view word);
 
 /// The whole content of a file. Throws Error if it cannot be read or is empty.
 std::string read_text(const std::string& file);
