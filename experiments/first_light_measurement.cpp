@@ -39,6 +39,7 @@ FirstLightSize measure_size(Index patches, const FirstLightOptions& options,
   ComparisonOptions comparison_options;
   comparison_options.operators = options.operators;
   comparison_options.seed = options.seed;
+  comparison_options.solver_options.tolerance = options.tolerance;
   Comparison comparison = compare(accurate, operators, solvers, comparison_options, monitor);
   size.operators = std::move(comparison.results);
   machine = comparison.machine;

@@ -14,6 +14,7 @@ struct FirstLightOptions {
   std::string scene = "cornell-box-closed";
   std::vector<Index> patches = {300, 800, 1600, 3300};  ///< wanted sizes, rising
   std::vector<std::string> operators = {"dense", "dense:f32", "dense:f16", "csr"};
+  double tolerance = 1e-8;  ///< relative residual of the operators' solutions: below the errors to be shown
   int reference_paths = 8192;  ///< of the path tracer, from each patch
   std::uint64_t seed = 1;
 };
