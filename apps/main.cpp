@@ -32,6 +32,7 @@ void add_commands(CLI::App& app, const Program& program) {
   add_solve_command(app, program);
   add_compare_command(app, program);
   add_reproduce_command(app, program);
+  add_bench_command(app, program);
 }
 
 /// CLI11 would call an unknown command an unexpected argument.

@@ -102,13 +102,13 @@ int main(int argc, char** argv) try {
   for (double& magnitude : magnitudes) magnitude = std::abs(magnitude);
   std::sort(magnitudes.rbegin(), magnitudes.rend());
   const auto large =
-      std::count_if(magnitudes.begin(), magnitudes.end(), [](double value) { return value > 0.01; });
+      std::count_if(magnitudes.begin(), magnitudes.end(), [](double value) { return value > 0.1; });
   state(fmt::format("the largest eigenvalue is {:.9f}", eigenvalues[n - 1]),
         std::abs(eigenvalues[n - 1] - 1) <= 1e-6);
   state(fmt::format("the next in size is {:.3f}", magnitudes[1]), magnitudes[1] < 0.5);
   state(fmt::format("the trace is {:.1e}, the sum of the eigenvalues {:.1e}", trace, eigenvalues.sum()),
         trace == 0 && std::abs(eigenvalues.sum()) <= 1e-10);
-  state(fmt::format("{} of {} eigenvalues are larger than 0.01", large, n), large < n / 4);
+  state(fmt::format("{} of {} eigenvalues are larger than 0.1", large, n), large < n / 4);
 
   Plot spectrum_plot;
   spectrum_plot.title = "Spectrum of K, cube, n = 384";

@@ -11,7 +11,8 @@
 namespace radiosity::test {
 namespace {
 
-/// A command line that must be refused: with which exit code, and what the one line of the message must contain.
+/// A command line that must be refused: with which exit code, and what the one line of the message must
+/// contain.
 struct Refusal {
   std::string name;
   std::vector<std::string> arguments;
@@ -19,7 +20,9 @@ struct Refusal {
   std::vector<std::string> words;
 };
 
-void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
+void PrintTo(const Refusal& refusal, std::ostream* out) {
+  *out << refusal.name;
+}
 
 /// A folder with files that the command lines below name.
 class FilledFolder : public TemporaryFolder {
@@ -47,6 +50,10 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string refusal_name(const testing::TestParamInfo<Refusal>& parameter) {
+  return parameter.param.name;
+}
+
 class CommandLineRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(CommandLineRefusal, SaysWhyInOneLineAndLeavesNothing) {
@@ -59,7 +66,8 @@ TEST_P(CommandLineRefusal, SaysWhyInOneLineAndLeavesNothing) {
   EXPECT_EQ(result.errors.rfind("radiosity: ", 0), 0u);
   EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1);
   EXPECT_EQ(result.errors.find('\r'), std::string::npos);
-  for (const std::string& word : refusal.words) EXPECT_NE(result.errors.find(word), std::string::npos) << word;
+  for (const std::string& word : refusal.words)
+    EXPECT_NE(result.errors.find(word), std::string::npos) << word;
   EXPECT_EQ(result.output, "");
   EXPECT_EQ(folder.entries(), before);
 }
@@ -68,20 +76,25 @@ const std::string output = "out.npy";
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, CommandLineRefusal,
-    testing::Values(
-        Refusal{"no_command", {}, 2, {"subcommand"}},
-        Refusal{"unknown_command", {"illuminate", "cube"}, 2, {"illuminate", "solve", "compare"}},
-        Refusal{"unknown_option", {"solve", "cube", "--brightness", "3"}, 2, {"--brightness"}},
-        Refusal{"two_scenes", {"solve", "cube", "cornell-box"}, 2, {"cornell-box"}},
-        Refusal{"solve_without_scene", {"solve"}, 2, {"SCENE"}},
-        Refusal{"info_without_scene", {"info"}, 2, {"SCENE"}},
-        Refusal{"form_factors_without_scene", {"form-factors", "--groups"}, 2, {"SCENE"}},
-        Refusal{"compare_without_scene", {"compare", "--operators", "dense", "csr"}, 2, {"SCENE", "--operators"}},
-        Refusal{"compare_swallowed_scene", {"compare", "--operators", "dense", "csr", "cube"}, 2, {"SCENE", "'cube'"}},
-        Refusal{"compare_without_operators", {"compare", "cube"}, 2, {"--operators"}},
-        Refusal{"unknown_benchmark", {"bench", "dreams"}, 2, {"dreams", "apply", "form-factors"}},
-        Refusal{"unknown_table", {"reproduce", "no-such-table"}, 2, {"no-such-table"}}),
-    [](const auto& info) { return info.param.name; });
+    testing::Values(Refusal{"no_command", {}, 2, {"subcommand"}},
+                    Refusal{"unknown_command", {"illuminate", "cube"}, 2, {"illuminate", "solve", "compare"}},
+                    Refusal{"unknown_option", {"solve", "cube", "--brightness", "3"}, 2, {"--brightness"}},
+                    Refusal{"two_scenes", {"solve", "cube", "cornell-box"}, 2, {"cornell-box"}},
+                    Refusal{"solve_without_scene", {"solve"}, 2, {"SCENE"}},
+                    Refusal{"info_without_scene", {"info"}, 2, {"SCENE"}},
+                    Refusal{"form_factors_without_scene", {"form-factors", "--groups"}, 2, {"SCENE"}},
+                    Refusal{"compare_without_scene",
+                            {"compare", "--operators", "dense", "csr"},
+                            2,
+                            {"SCENE", "--operators"}},
+                    Refusal{"compare_swallowed_scene",
+                            {"compare", "--operators", "dense", "csr", "cube"},
+                            2,
+                            {"SCENE", "'cube'"}},
+                    Refusal{"compare_without_operators", {"compare", "cube"}, 2, {"--operators"}},
+                    Refusal{"unknown_benchmark", {"bench", "dreams"}, 2, {"dreams", "apply", "form-factors"}},
+                    Refusal{"unknown_table", {"reproduce", "no-such-table"}, 2, {"no-such-table"}}),
+    refusal_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, CommandLineRefusal,
@@ -89,51 +102,74 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"missing_file", {"info", "missing.obj"}, 1, {"missing.obj"}},
                     Refusal{"folder_for_scene", {"info", "."}, 1, {"'.'"}},
                     Refusal{"unknown_format", {"info", "unknown.xyz"}, 1, {"unknown.xyz"}},
-                    Refusal{"truncated_obj", {"solve", "truncated.obj", "-o", output}, 1, {"truncated.obj", "3"}},
+                    Refusal{
+                        "truncated_obj", {"solve", "truncated.obj", "-o", output}, 1, {"truncated.obj", "3"}},
                     Refusal{"nan_in_obj", {"solve", "nan.obj", "-o", output}, 1, {"nan.obj", "2"}},
                     Refusal{"bad_index_in_obj", {"solve", "bad-index.obj"}, 1, {"bad-index.obj", "4"}},
                     Refusal{"empty_obj", {"solve", "empty.obj"}, 1, {"empty.obj"}},
                     Refusal{"truncated_ply", {"solve", "truncated.ply"}, 1, {"truncated.ply"}}),
-    [](const auto& info) { return info.param.name; });
+    refusal_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Meshes, CommandLineRefusal,
-    testing::Values(Refusal{"patches_zero", {"solve", "cube", "--patches", "0"}, 2, {"--patches", "'0'"}},
-                    Refusal{"patches_negative", {"solve", "cube", "--patches", "-6"}, 2, {"--patches"}},
-                    Refusal{"patches_no_number", {"solve", "cube", "--patches", "many"}, 2, {"--patches", "many"}},
-                    Refusal{"patches_fraction", {"solve", "cube", "--patches", "6.5"}, 2, {"--patches", "6.5"}},
-                    Refusal{"patches_nan", {"solve", "cube", "--patches", "nan"}, 2, {"--patches", "nan"}},
-                    Refusal{"too_few_patches", {"solve", "cornell-box", "--patches", "3"}, 2, {"3"}},
-                    Refusal{"too_many_for_memory", {"solve", "cube", "--patches", "9000000"}, 1, {"memory", "TB"}},
-                    Refusal{"edge_zero", {"solve", "cube", "--edge", "0"}, 2, {"--edge"}},
-                    Refusal{"edge_negative", {"solve", "cube", "--edge", "-1"}, 2, {"--edge"}},
-                    Refusal{"edge_nan", {"solve", "cube", "--edge", "nan"}, 2, {"--edge", "nan"}},
-                    Refusal{"edge_infinite", {"solve", "cube", "--edge", "inf"}, 2, {"--edge", "inf"}},
-                    Refusal{"patches_and_edge", {"solve", "cube", "--patches", "24", "--edge", "1"}, 2, {"--patches", "--edge"}}),
-    [](const auto& info) { return info.param.name; });
+    testing::Values(
+        Refusal{"patches_zero", {"solve", "cube", "--patches", "0"}, 2, {"--patches", "'0'"}},
+        Refusal{"patches_negative", {"solve", "cube", "--patches", "-6"}, 2, {"--patches"}},
+        Refusal{"patches_no_number", {"solve", "cube", "--patches", "many"}, 2, {"--patches", "many"}},
+        Refusal{"patches_fraction", {"solve", "cube", "--patches", "6.5"}, 2, {"--patches", "6.5"}},
+        Refusal{"patches_nan", {"solve", "cube", "--patches", "nan"}, 2, {"--patches", "nan"}},
+        Refusal{"too_few_patches", {"solve", "cornell-box", "--patches", "3"}, 2, {"3"}},
+        Refusal{"too_many_for_memory", {"solve", "cube", "--patches", "9000000"}, 1, {"memory", "TB"}},
+        Refusal{"edge_zero", {"solve", "cube", "--edge", "0"}, 2, {"--edge"}},
+        Refusal{"edge_negative", {"solve", "cube", "--edge", "-1"}, 2, {"--edge"}},
+        Refusal{"edge_nan", {"solve", "cube", "--edge", "nan"}, 2, {"--edge", "nan"}},
+        Refusal{"edge_infinite", {"solve", "cube", "--edge", "inf"}, 2, {"--edge", "inf"}},
+        Refusal{"patches_and_edge",
+                {"solve", "cube", "--patches", "24", "--edge", "1"},
+                2,
+                {"--patches", "--edge"}}),
+    refusal_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Materials, CommandLineRefusal,
     testing::Values(
-        Refusal{"reflectance_one", {"solve", "cube", "--reflectance", "1"}, 1, {"reflectance", "--max-reflectance"}},
-        Refusal{"reflectance_above_one", {"solve", "cube", "--reflectance", "1.5"}, 2, {"--reflectance", "1.5"}},
+        Refusal{"reflectance_one",
+                {"solve", "cube", "--reflectance", "1"},
+                1,
+                {"reflectance", "--max-reflectance"}},
+        Refusal{
+            "reflectance_above_one", {"solve", "cube", "--reflectance", "1.5"}, 2, {"--reflectance", "1.5"}},
         Refusal{"reflectance_negative", {"solve", "cube", "--reflectance", "-0.1"}, 2, {"--reflectance"}},
         Refusal{"reflectance_nan", {"solve", "cube", "--reflectance", "nan"}, 2, {"--reflectance", "nan"}},
         Refusal{"max_reflectance_one", {"solve", "cube", "--max-reflectance", "1"}, 2, {"--max-reflectance"}},
         Refusal{"emission_missing", {"solve", "cube", "--emission", "none.npy"}, 1, {"none.npy"}},
         Refusal{"emission_garbage", {"solve", "cube", "--emission", "garbage.npy"}, 1, {"garbage.npy"}},
-        Refusal{"emission_rows", {"solve", "cube", "--emission", "five-rows.npy"}, 1, {"five-rows.npy", "5 x 1", "6 x 1"}},
-        Refusal{"emission_columns", {"solve", "cube", "--emission", "two-columns.npy"}, 1, {"6 x 2", "6 x 3"}},
-        Refusal{"emission_negative", {"solve", "cube", "--emission", "negative.npy"}, 1, {"negative.npy", "patch 0"}},
-        Refusal{"set_unknown_group", {"solve", "cube", "--set", "roof:reflectance=0.5"}, 2, {"roof", "ceiling"}},
-        Refusal{"set_unknown_key", {"solve", "cube", "--set", "floor:gloss=0.5"}, 2, {"gloss", "reflectance", "emission"}},
+        Refusal{"emission_rows",
+                {"solve", "cube", "--emission", "five-rows.npy"},
+                1,
+                {"five-rows.npy", "5 x 1", "6 x 1"}},
+        Refusal{
+            "emission_columns", {"solve", "cube", "--emission", "two-columns.npy"}, 1, {"6 x 2", "6 x 3"}},
+        Refusal{"emission_negative",
+                {"solve", "cube", "--emission", "negative.npy"},
+                1,
+                {"negative.npy", "patch 0"}},
+        Refusal{
+            "set_unknown_group", {"solve", "cube", "--set", "roof:reflectance=0.5"}, 2, {"roof", "ceiling"}},
+        Refusal{"set_unknown_key",
+                {"solve", "cube", "--set", "floor:gloss=0.5"},
+                2,
+                {"gloss", "reflectance", "emission"}},
         Refusal{"set_without_group", {"solve", "cube", "--set", "reflectance=0.5"}, 2, {"--set", "GROUP:"}},
         Refusal{"set_two_numbers", {"solve", "cube", "--set", "floor:reflectance=0.1/0.2"}, 2, {"0.1/0.2"}},
         Refusal{"set_no_number", {"solve", "cube", "--set", "floor:reflectance="}, 2, {"--set", "number"}},
         Refusal{"set_nan", {"solve", "cube", "--set", "floor:emission=nan"}, 2, {"nan"}},
-        Refusal{"set_reflectance_above_one", {"solve", "cube", "--set", "floor:reflectance=2"}, 2, {"2", "[0, 1]"}},
+        Refusal{"set_reflectance_above_one",
+                {"solve", "cube", "--set", "floor:reflectance=2"},
+                2,
+                {"2", "[0, 1]"}},
         Refusal{"set_emission_negative", {"solve", "cube", "--set", "floor:emission=-1"}, 2, {"-1"}}),
-    [](const auto& info) { return info.param.name; });
+    refusal_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Methods, CommandLineRefusal,
@@ -141,30 +177,50 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"unknown_operator", {"solve", "cube", "--operator", "sparse"}, 2, {"sparse", "dense", "csr"}},
         Refusal{"unknown_operator_key", {"solve", "cube", "--operator", "dense:size=3"}, 2, {"size"}},
         Refusal{"empty_operator", {"solve", "cube", "--operator", ""}, 2, {""}},
-        Refusal{"compare_unknown_operator", {"compare", "cube", "--operators", "dense", "magic", "--json", "a.json"}, 2, {"magic"}},
-        Refusal{"compare_unknown_key", {"compare", "cube", "--operators", "csr:x=1", "--json", "a.json"}, 2, {"csr:x=1"}},
+        Refusal{"compare_unknown_operator",
+                {"compare", "cube", "--operators", "dense", "magic", "--json", "a.json"},
+                2,
+                {"magic"}},
+        Refusal{"compare_unknown_key",
+                {"compare", "cube", "--operators", "csr:x=1", "--json", "a.json"},
+                2,
+                {"csr:x=1"}},
         Refusal{"unknown_solver", {"solve", "cube", "--solver", "jacobi"}, 2, {"jacobi", "cg", "gmres"}},
         Refusal{"unknown_solver_key", {"solve", "cube", "--solver", "cg:restart=3"}, 2, {"restart"}},
-        Refusal{"solver_value_out_of_range", {"solve", "cube", "--solver", "gmres:restart=0"}, 2, {"restart"}},
-        Refusal{"cg_on_gather",
-                {"solve", "cube", "--form-factors", "gather", "--solver", "cg"},
-                2,
-                {"cg"}},
+        Refusal{
+            "solver_value_out_of_range", {"solve", "cube", "--solver", "gmres:restart=0"}, 2, {"restart"}},
+        Refusal{"cg_on_gather", {"solve", "cube", "--form-factors", "gather", "--solver", "cg"}, 2, {"cg"}},
         Refusal{"tolerance_zero", {"solve", "cube", "--tolerance", "0"}, 2, {"--tolerance"}},
         Refusal{"tolerance_nan", {"solve", "cube", "--tolerance", "nan"}, 2, {"--tolerance", "nan"}},
-        Refusal{"unknown_method", {"solve", "cube", "--form-factors", "guess"}, 2, {"--form-factors", "guess"}},
+        Refusal{
+            "unknown_method", {"solve", "cube", "--form-factors", "guess"}, 2, {"--form-factors", "guess"}},
         Refusal{"unknown_closure", {"solve", "cube", "--closure", "open"}, 2, {"--closure", "open"}},
-        Refusal{"factor_tolerance_negative", {"solve", "cube", "--form-factor-tolerance", "-1"}, 2, {"--form-factor-tolerance"}},
+        Refusal{"factor_tolerance_negative",
+                {"solve", "cube", "--form-factor-tolerance", "-1"},
+                2,
+                {"--form-factor-tolerance"}},
         Refusal{"unknown_device", {"solve", "cube", "--device", "abacus"}, 2, {"abacus", "cpu"}},
         Refusal{"no_opengl", {"solve", "cube", "--device", "gl"}, 2, {"OpenGL", "--device cpu"}},
         Refusal{"threads_zero", {"solve", "cube", "--threads", "0"}, 2, {"--threads"}},
         Refusal{"seed_negative", {"solve", "cube", "--seed", "-1"}, 2, {"--seed"}},
-        Refusal{"lights_unknown_kind", {"compare", "cube", "--operators", "dense", "--lights", "laser:1"}, 2, {"laser"}},
-        Refusal{"lights_without_number", {"compare", "cube", "--operators", "dense", "--lights", "area"}, 2, {"area"}},
-        Refusal{"lights_negative", {"compare", "cube", "--operators", "dense", "--lights", "area:-1"}, 2, {"area"}},
-        Refusal{"lights_twice", {"compare", "cube", "--operators", "dense", "--lights", "area:1,area:2"}, 2, {"area"}},
+        Refusal{"lights_unknown_kind",
+                {"compare", "cube", "--operators", "dense", "--lights", "laser:1"},
+                2,
+                {"laser"}},
+        Refusal{"lights_without_number",
+                {"compare", "cube", "--operators", "dense", "--lights", "area"},
+                2,
+                {"area"}},
+        Refusal{"lights_negative",
+                {"compare", "cube", "--operators", "dense", "--lights", "area:-1"},
+                2,
+                {"area"}},
+        Refusal{"lights_twice",
+                {"compare", "cube", "--operators", "dense", "--lights", "area:1,area:2"},
+                2,
+                {"area"}},
         Refusal{"solve_many_lights", {"solve", "cube", "--lights", "patch:3"}, 2, {"patch:3", "one light"}}),
-    [](const auto& info) { return info.param.name; });
+    refusal_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Files, CommandLineRefusal,
@@ -173,21 +229,40 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"no_extension", {"solve", "cube", "-o", "out"}, 2, {"out", ".glb"}},
         Refusal{"missing_folder", {"solve", "cube", "-o", "none/out.npy"}, 1, {"none/out.npy"}},
         Refusal{"folder_as_output", {"solve", "cube", "-o", "folder.npy"}, 1, {"folder.npy", "folder"}},
-        Refusal{"one_of_two_outputs", {"solve", "cube", "-o", "good.npy", "-o", "none/out.png"}, 1, {"none/out.png"}},
-        Refusal{"solve_json_folder", {"solve", "cube", "-o", output, "--json", "none/a.json"}, 1, {"none/a.json"}},
-        Refusal{"compare_json_folder", {"compare", "cube", "--operators", "dense", "--json", "none/a.json"}, 1, {"none/a.json"}},
+        Refusal{"one_of_two_outputs",
+                {"solve", "cube", "-o", "good.npy", "-o", "none/out.png"},
+                1,
+                {"none/out.png"}},
+        Refusal{"solve_json_folder",
+                {"solve", "cube", "-o", output, "--json", "none/a.json"},
+                1,
+                {"none/a.json"}},
+        Refusal{"compare_json_folder",
+                {"compare", "cube", "--operators", "dense", "--json", "none/a.json"},
+                1,
+                {"none/a.json"}},
         Refusal{"info_json_folder", {"info", "cube", "--json", "none/a.json"}, 1, {"none/a.json"}},
-        Refusal{"plot_extension", {"compare", "cube", "--operators", "dense", "--plot", "a.png"}, 2, {"a.png", ".svg"}},
+        Refusal{"plot_extension",
+                {"compare", "cube", "--operators", "dense", "--plot", "a.png"},
+                2,
+                {"a.png", ".svg"}},
         Refusal{"matrix_extension", {"form-factors", "cube", "-o", "F.csv"}, 2, {"F.csv", ".npy"}},
         Refusal{"matrix_folder", {"form-factors", "cube", "-o", "none/F.npy"}, 1, {"none/F.npy"}},
         Refusal{"save_folder", {"form-factors", "cube", "--save", "none/k"}, 1, {"none/k"}},
         Refusal{"kernel_missing", {"solve", "cube", "--kernel", "none.kernel"}, 1, {"none.kernel"}},
         Refusal{"kernel_garbage", {"solve", "cube", "--kernel", "garbage.kernel"}, 1, {"garbage.kernel"}},
-        Refusal{"kernel_of_other_scene", {"solve", "cornell-box", "--kernel", "cube.kernel"}, 1, {"cube.kernel"}},
-        Refusal{"kernel_of_other_mesh", {"solve", "cube", "--patches", "24", "--kernel", "cube.kernel"}, 1, {"cube.kernel"}},
-        Refusal{"kernel_and_save", {"solve", "cube", "--kernel", "cube.kernel", "--save", "k"}, 2, {"--kernel", "--save"}},
+        Refusal{
+            "kernel_of_other_scene", {"solve", "cornell-box", "--kernel", "cube.kernel"}, 1, {"cube.kernel"}},
+        Refusal{"kernel_of_other_mesh",
+                {"solve", "cube", "--patches", "24", "--kernel", "cube.kernel"},
+                1,
+                {"cube.kernel"}},
+        Refusal{"kernel_and_save",
+                {"solve", "cube", "--kernel", "cube.kernel", "--save", "k"},
+                2,
+                {"--kernel", "--save"}},
         Refusal{"width_zero", {"solve", "cube", "-o", "a.png", "--width", "0"}, 2, {"--width"}}),
-    [](const auto& info) { return info.param.name; });
+    refusal_name);
 
 }  // namespace
 }  // namespace radiosity::test

@@ -1,17 +1,16 @@
 #include "process.hpp"
 
-#include <fcntl.h>
-#include <pty.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <fcntl.h>
 #include <fstream>
+#include <pty.h>
 #include <sstream>
 #include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace radiosity::test {
 
@@ -27,8 +26,8 @@ std::string content_of(const fs::path& file) {
 }
 
 /// In the child: becomes the program.
-[[noreturn]] void become(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& output,
-                         int error_descriptor) {
+[[noreturn]] void become(const std::vector<std::string>& arguments, const fs::path& folder,
+                         const fs::path& output, int error_descriptor) {
   std::vector<char*> words = {const_cast<char*>(RADIOSITY_PROGRAM)};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
@@ -70,12 +69,14 @@ std::string TemporaryFolder::write(const std::string& name, const std::string& c
 
 std::vector<std::string> TemporaryFolder::entries() const {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename().string());
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
-RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const fs::path& folder, StandardError kind) {
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const fs::path& folder,
+                               StandardError kind) {
   int error_descriptor = -1;
   if (kind == StandardError::terminal) {
     if (openpty(&terminal_, &error_descriptor, nullptr, nullptr, nullptr) != 0)
@@ -97,7 +98,9 @@ RunningProgram::~RunningProgram() {
   if (terminal_ >= 0) close(terminal_);
 }
 
-void RunningProgram::send(int signal) const { kill(process_, signal); }
+void RunningProgram::send(int signal) const {
+  kill(process_, signal);
+}
 
 ProcessResult RunningProgram::wait() {
   ProcessResult result;

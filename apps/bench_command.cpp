@@ -1,0 +1,95 @@
+#include "apps/number_ranges.hpp"
+#include "apps/program.hpp"
+#include "apps/run_options.hpp"
+#include "apps/scene_options.hpp"
+#include "apps/terminal_monitor.hpp"
+#include "experiments/apply_benchmark.hpp"
+#include "experiments/form_factor_benchmark.hpp"
+#include "foundation/error.hpp"
+#include "foundation/parallel.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace radiosity {
+namespace {
+
+struct BenchOptions {
+  std::vector<std::string> names;
+  std::string scene = "cornell-box-closed";
+  std::optional<Index> patches;
+  std::vector<std::string> operators;
+  RunOptions run;
+};
+
+struct Benchmark {
+  const char* name;
+  void (*run)(const BenchOptions& options, const Program& program);
+};
+
+void bench_apply(const BenchOptions& options, const Program& program) {
+  ApplyBenchmarkOptions sizes;
+  sizes.size = options.patches.value_or(sizes.size);
+  sizes.operators = options.operators;
+  if (options.run.threads > 0) sizes.threads = {options.run.threads};
+  print_apply_benchmark(benchmark_apply(program.operators, sizes), std::cout);
+}
+
+void bench_form_factors(const BenchOptions& options, const Program&) {
+  SceneOptions scene;
+  scene.scene = options.scene;
+  scene.patches = options.patches.value_or(13000);
+  FormFactorOptions form_factors;
+  form_factors.seed = options.run.seed;
+  TerminalMonitor monitor(options.run.quiet);
+  const FormFactorBenchmark result = benchmark_form_factors(open_mesh(scene), form_factors, monitor);
+  monitor.clear();
+  std::cout << form_factor_benchmark_text(result) << std::flush;
+}
+
+constexpr std::array<Benchmark, 2> benchmarks = {
+    {{"apply", bench_apply}, {"form-factors", bench_form_factors}}};
+
+void run_bench(const BenchOptions& options, const Program& program) {
+  const ThreadLimit limit(options.run.threads);
+  require_device(options.run);
+  for (const std::string& name : options.names)
+    if (std::none_of(benchmarks.begin(), benchmarks.end(),
+                     [&](const Benchmark& known) { return name == known.name; }))
+      fail<UsageError>("there is no benchmark '{}'; the known ones are apply and form-factors", name);
+  for (const Benchmark& benchmark : benchmarks)
+    if (options.names.empty() ||
+        std::find(options.names.begin(), options.names.end(), benchmark.name) != options.names.end())
+      benchmark.run(options, program);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, const Program& program) {
+  CLI::App* command =
+      app.add_subcommand("bench", "speed of products and of form factors, against the machine's limits");
+  const auto options = std::make_shared<BenchOptions>();
+  command->add_option("NAME", options->names, "apply or form-factors; default: both")->option_text(" ");
+  command->add_option("--scene", options->scene, "for form-factors; default cornell-box-closed")
+      ->option_text("SCENE");
+  command
+      ->add_option("--patches", options->patches,
+                   "size of the matrix; default 16384 for apply, 13000 for form-factors")
+      ->check(integer_between(1, 10'000'000))
+      ->option_text("N");
+  command->add_option("--operators", options->operators, "for apply; default: all")
+      ->expected(1, -1)
+      ->option_text("SPEC ...");
+  add_run_options(*command, options->run);
+  command->callback([options, &program] { run_bench(*options, program); });
+}
+
+}  // namespace radiosity
