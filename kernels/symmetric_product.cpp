@@ -10,6 +10,11 @@
 namespace radiosity {
 namespace {
 
+/// How far ahead of the arithmetic the tiles are fetched: processors do not fetch ahead across pages of 4 KiB
+/// by themselves. From 4 to 16 KiB gave the same, 10 to 40 % over none. Beyond the last tile it fetches
+/// nothing of use.
+constexpr std::ptrdiff_t bytes_ahead = 8192;
+
 /// Cuts the tile rows into chunks of about equal numbers of tiles; chunk k is the tile rows result[k] ...
 /// result[k + 1] - 1. Depends on the matrix only, never on threads: it decides the order of the sums.
 template <typename Scalar>
@@ -60,6 +65,7 @@ class SymmetricProduct {
       const Index columns = std::min<Index>(products_.most_columns, X_.columns() - c);
       TileTask<Scalar> task;
       task.entries = K_.tile_data(tile);
+      if (c == 0) task.prefetch = reinterpret_cast<const char*>(task.entries) + bytes_ahead;
       task.row_lanes = lanes + c / products_.most_columns * row_lanes_size<Scalar>;
       task.first = first;
       task.last = last;
