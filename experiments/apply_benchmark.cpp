@@ -245,8 +245,7 @@ void check_options(const ApplyBenchmarkOptions& options) {
   // Double and float for the libraries (12 bytes an entry), the kernel and its copies (8), csr (12).
   const double needed = 32.0 * static_cast<double>(options.size) * static_cast<double>(options.size) +
                         static_cast<double>(options.stream_bytes);
-  const double free =
-      static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double free = available_memory();
   if (needed > free)
     fail("a benchmark of {} patches needs {:.1f} GB and {:.1f} GB are free: choose fewer patches",
          options.size, 1e-9 * needed, 1e-9 * free);
