@@ -41,6 +41,11 @@ TEST(ReferenceComparison, DifferencesAreRelativeToReflectedLight) {
   EXPECT_NEAR(result.mean_difference, 0.03, 1e-12);
   EXPECT_NEAR(result.rms_difference, std::sqrt(0.03 * 0.03 - 0.005 * 0.005), 1e-12);
   EXPECT_EQ(result.beyond_four_standard_errors, 1);
+  // d = 0.03 and s = 0.005 on 24 patches: the variance of a square is 4 d^2 s^2 + 2 s^4 (d^2 less s^2, as it
+  // is seen).
+  const double square = 0.03 * 0.03 - 0.005 * 0.005;
+  const double error = std::sqrt((4 * square * std::pow(0.005, 2) + 2 * std::pow(0.005, 4)) / 24);
+  EXPECT_NEAR(result.rms_difference_standard_error, std::sqrt(square + error) - std::sqrt(square), 1e-12);
 }
 
 TEST(ReferenceComparison, GroupsTellWhereTheDifferenceIs) {
