@@ -146,7 +146,7 @@ Comparison compare(const FormFactors& form_factors, const OperatorRegistry& oper
   Comparison comparison;
   comparison.form_factors = form_factors;
   comparison.lights = choose_lights(*form_factors.mesh, options, monitor);
-  comparison.machine = measure_machine();
+  comparison.machine = options.machine ? *options.machine : measure_machine();
   monitor.checkpoint("reference solution", 0);
   const std::optional<Field> reference = reference_solution(form_factors, comparison.lights.emission);
   const Task task{form_factors, solvers, options, comparison.lights, reference, monitor};

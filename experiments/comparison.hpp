@@ -22,6 +22,7 @@ struct ComparisonOptions {
   LightCounts lights;                  ///< none: the scene's own emission is the one light
   std::uint64_t seed = 1;
   SolverOptions solver_options;
+  std::optional<Machine> machine;  ///< as measured before; measured anew if it is not given
   Index largest_measured =
       5000;  ///< patches up to which ||A - T||_F is computed, which costs n products a spec
 };

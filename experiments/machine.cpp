@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <unistd.h>
 #include <vector>
 
 namespace radiosity {
@@ -39,11 +40,19 @@ std::uint64_t sum_words(const std::uint64_t* words, std::size_t count) {
   return total;
 }
 
+/// Twice what the last cache holds, within reason: touching fresh memory takes longer than reading it.
+std::size_t buffer_bytes() {
+  constexpr std::size_t least = std::size_t{1} << 28;
+  constexpr std::size_t most = std::size_t{1} << 29;
+  const long cache = sysconf(_SC_LEVEL3_CACHE_SIZE);
+  return std::clamp(2 * static_cast<std::size_t>(std::max(cache, 0L)), least, most);
+}
+
 }  // namespace
 
 double measure_read_bandwidth(double seconds) {
   constexpr std::size_t chunk_words = std::size_t{1} << 17;  // 1 MB
-  constexpr std::size_t chunks = 256;
+  const std::size_t chunks = buffer_bytes() / (chunk_words * sizeof(std::uint64_t));
   const std::unique_ptr<std::uint64_t[]> words(new std::uint64_t[chunks * chunk_words]);
   std::vector<std::uint64_t> sums(chunks);
   parallel_for(chunks, [&](std::size_t c) {  // pages belong to the buffer only once they have been written

@@ -12,12 +12,12 @@ struct Machine {
   double load = 0;                 ///< the system's load average of the last minute: above 0 means company
 };
 
-/// Reads the description of this machine and measures its bandwidth; takes about 0.3 s.
+/// Reads the description of this machine and measures its bandwidth; takes about half a second.
 Machine measure_machine();
 
-/// Largest rate at which all threads together read a buffer that no cache holds (256 MB), in 1e9 bytes a
-/// second: the limit of every operator that is larger than the caches. Passes over the buffer until `seconds`
-/// are over.
+/// Largest rate at which all threads together read a buffer much larger than the last cache (256 to 512 MB),
+/// in 1e9 bytes a second: the limit of every operator that the caches do not hold. Passes over the buffer
+/// until `seconds` are over.
 double measure_read_bandwidth(double seconds = 0.2);
 
 }  // namespace radiosity
