@@ -7,7 +7,7 @@ namespace radiosity {
 namespace {
 
 std::string percent(double fraction, int digits = 2) {
-  return fmt::format("{:.{}f} %", 100 * fraction, digits);
+  return fmt::format("{:.{}f}\u00a0%", 100 * fraction, digits);
 }
 
 std::string small(const std::optional<double>& value) {
@@ -46,6 +46,7 @@ ReportTable operator_table(const FirstLightMeasurement& measurement) {
       "factors do to that solution.";
   table.columns = {"patches",  "operator",   "MB",   "apply, ms", "solve, ms",
                    "products", "error in T", "in B", "in B − E"};
+  table.text_columns = 2;
   for (const FirstLightSize& size : measurement.sizes) {
     const std::string patches = std::to_string(size.mesh->patch_count());
     for (const ComparisonResult& result : size.operators)
@@ -70,11 +71,11 @@ ReportTable referee_table(const FirstLightMeasurement& measurement) {
   table.columns = {"patches",      "paths a patch", "mean difference", "rms",
                    "one-ray mean", "one-ray rms",   "seconds"};
   const auto mean = [](const ReferenceComparison& difference) {
-    return fmt::format("{:+.2f} ± {:.2f} %", 100 * difference.mean_difference,
+    return fmt::format("{:+.2f} ± {:.2f}\u00a0%", 100 * difference.mean_difference,
                        100 * difference.mean_difference_standard_error);
   };
   const auto rms = [](const ReferenceComparison& difference) {
-    return fmt::format("{:.2f} ± {:.2f} %", 100 * difference.rms_difference,
+    return fmt::format("{:.2f} ± {:.2f}\u00a0%", 100 * difference.rms_difference,
                        100 * difference.rms_difference_standard_error);
   };
   for (const FirstLightSize& size : measurement.sizes)

@@ -20,29 +20,32 @@ constexpr const char* page_style = R"(
 body{margin:0 auto;padding:2rem 1rem 4rem;max-width:60rem;background:var(--paper);color:var(--ink);
 font:16px/1.55 system-ui,-apple-system,"Segoe UI",Roboto,Helvetica,Arial,sans-serif}
 h1{font-size:1.9rem;line-height:1.2;margin:0 0 .4rem}h2{font-size:1.35rem;margin:3rem 0 .6rem}
-p{max-width:42rem}.about,.command,figcaption,caption{color:var(--muted);font-size:.875rem}
+p{max-width:42rem}.about,.command,figcaption{color:var(--muted);font-size:.875rem}
 nav{margin:1.2rem 0;padding:.6rem 0;border-block:1px solid var(--rule)}nav a{margin-right:1.2rem}
 a{color:inherit}
 figure{margin:1.6rem 0}figure img,figure svg{display:block;max-width:100%;height:auto}
-.wide{overflow-x:auto;margin:1.6rem 0}
+figure.picture{display:inline-block;vertical-align:top;width:29rem;max-width:100%;margin:1rem 1rem 0 0}
+.wide{overflow-x:auto}.wide svg{min-width:44rem}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
-caption,figcaption{text-align:left;padding:.4rem 0;max-width:42rem}caption{caption-side:top}
+figcaption{padding:.4rem 0;max-width:42rem}
 th,td{padding:.35rem .8rem;text-align:right;white-space:nowrap;border-bottom:1px solid var(--rule)}
 th{white-space:normal;vertical-align:bottom;border-bottom:2px solid var(--rule);font-weight:600}
-th:first-child,td:first-child{text-align:left;padding-left:.2rem}
+th.text,td.text{text-align:left}th:first-child,td:first-child{padding-left:.2rem}
 tbody tr:nth-child(even){background:var(--band)}
 code{font:.8125rem ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;overflow-wrap:anywhere}
 @media print{body{max-width:none;padding:0;font-size:10pt}nav{display:none}
-figure,table{break-inside:avoid}h2{break-after:avoid}.wide{overflow:visible}}
+figure,tr{break-inside:avoid}h2{break-after:avoid}.wide{overflow:visible}.wide svg{min-width:0}}
 )";
 
 std::string command_line(const std::string& command) {
   return command.empty() ? "" : "<div class=\"command\"><code>" + escape_markup(command) + "</code></div>\n";
 }
 
-std::string table_row(const std::vector<std::string>& cells, const char* tag) {
+std::string table_row(const std::vector<std::string>& cells, const char* tag, std::size_t text_columns) {
   std::string html = "<tr>";
-  for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escape_markup(cell));
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    html += fmt::format("<{0}{1}>{2}</{0}>", tag, k < text_columns ? " class=\"text\"" : "",
+                        escape_markup(cells[k]));
   return html + "</tr>\n";
 }
 
@@ -52,15 +55,15 @@ std::string to_html(const ReportText& block) {
 
 std::string to_html(const ReportTable& table) {
   std::string html =
-      "<div class=\"wide\">\n<table>\n<caption>" + escape_markup(table.caption) + "</caption>\n";
-  html += "<thead>" + table_row(table.columns, "th") + "</thead>\n<tbody>\n";
+      "<figure>\n<figcaption>" + escape_markup(table.caption) + "</figcaption>\n<div class=\"wide\">\n";
+  html += "<table>\n<thead>" + table_row(table.columns, "th", table.text_columns) + "</thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     if (row.size() != table.columns.size())
       fail("the table '{}' has {} columns, but a row with {} cells", table.caption, table.columns.size(),
            row.size());
-    html += table_row(row, "td");
+    html += table_row(row, "td", table.text_columns);
   }
-  return html + "</tbody>\n</table>\n" + command_line(table.command) + "</div>\n";
+  return html + "</tbody>\n</table>\n</div>\n" + command_line(table.command) + "</figure>\n";
 }
 
 std::string to_html(const ReportFigure& figure) {
@@ -69,8 +72,8 @@ std::string to_html(const ReportFigure& figure) {
   const std::string image = svg ? *svg
                                 : fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", caption,
                                               base64(std::get<std::vector<std::uint8_t>>(figure.image)));
-  return "<figure>\n" + image + "<figcaption>" + caption + "</figcaption>\n" + command_line(figure.command) +
-         "</figure>\n";
+  return (svg ? "<figure>\n" : "<figure class=\"picture\">\n") + image + "<figcaption>" + caption +
+         "</figcaption>\n" + command_line(figure.command) + "</figure>\n";
 }
 
 }  // namespace

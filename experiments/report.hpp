@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -13,12 +14,13 @@ struct ReportText {
   std::string text;
 };
 
-/// A table: the first column is text, the others are numbers or short words, aligned right.
+/// A table: its first columns are text, the others are numbers, aligned right.
 struct ReportTable {
   std::string caption;
   std::string command;               ///< what makes it: "radiosity compare cornell-box ..."
   std::vector<std::string> columns;  ///< with their units
   std::vector<std::vector<std::string>> rows;
+  std::size_t text_columns = 1;
 };
 
 /// A picture: SVG text, or the bytes of a PNG file.

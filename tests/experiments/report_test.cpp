@@ -24,8 +24,8 @@ TEST(Report, HoldsEverything) {
   const std::string html = to_html(small_report());
   for (const char* part :
        {"Results &amp; more", "a processor", "2000-01-01", "<p>Prose.</p>", "<th>error</th>",
-        "<td>dense &lt;f64&gt;</td>", "radiosity compare cube", "<svg></svg>", "href=\"#section-2\"",
-        "id=\"section-2\"", "name=\"viewport\"", "@media print"})
+        "<td class=\"text\">dense &lt;f64&gt;</td>", "radiosity compare cube", "<svg></svg>",
+        "href=\"#section-2\"", "id=\"section-2\"", "name=\"viewport\"", "@media print"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
