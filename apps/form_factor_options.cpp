@@ -18,25 +18,28 @@ void add_form_factor_options(CLI::App& command, FormFactorChoice& choice) {
                                                            {"gather", FormFactorMethod::gather}};
   const std::map<std::string, Closure> closures = {{"none", Closure::none},
                                                    {"symmetric", Closure::symmetric}};
-  command.add_option("--form-factors", choice.options.method, "how they are computed; default accurate")
-      ->transform(CLI::Transformer(methods).description(""))
+  command
+      .add_option_function<std::string>(
+          "--form-factors",
+          [&choice, methods](const std::string& name) { choice.options.method = methods.at(name); },
+          "how they are computed; default accurate")
       ->check(CLI::IsMember(methods).description(""))
       ->option_text("accurate|one-ray|gather");
   command
       .add_option("--form-factor-tolerance", choice.options.tolerance,
                   "estimated standard error of each form factor, also between groups; default 1e-4")
-      ->check(number_between(1e-12, 1))
+      ->check(number_between(1e-12, 0.1))
       ->option_text("T");
   command
       .add_option("--gather-rays", choice.options.gather_rays,
                   "rays from each patch for gather; default 1024")
-      ->check(integer_between(1, 1 << 24))
+      ->check(integer_between(16, 1 << 24))
       ->option_text("N");
   command
-      .add_option(
-          "--closure", choice.options.closure,
+      .add_option_function<std::string>(
+          "--closure",
+          [&choice, closures](const std::string& name) { choice.options.closure = closures.at(name); },
           "whether rows are made to sum to what is exposed; default: symmetric where the scene is watertight")
-      ->transform(CLI::Transformer(closures).description(""))
       ->check(CLI::IsMember(closures).description(""))
       ->option_text("none|symmetric");
   CLI::Option* kernel =
