@@ -11,7 +11,6 @@
 #include <tiny_obj_loader.h>
 
 #include <numbers>
-#include <set>
 #include <sstream>
 
 namespace radiosity {
@@ -31,27 +30,21 @@ std::string without_comments(std::string text) {
   return text;
 }
 
-std::string trimmed(const std::string& name) {
-  return name.substr(0, name.find_last_not_of(" \t") + 1);
-}
-
 /// Reads material libraries beside the OBJ file; a missing one is a note.
 class Libraries final : public tinyobj::MaterialReader {
  public:
   explicit Libraries(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* numbers, std::string* warning, std::string* error) override {
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>*, std::map<std::string, int>*,
+                  std::string*, std::string*) override {
     const std::filesystem::path file = folder_ / name;
     if (!std::filesystem::is_regular_file(file)) {
       notes.push_back(
           fmt::format("material library '{}' is missing: its materials have reflectance 0.5", name));
       return true;
     }
-    const std::string text = read_text(file.string());
-    for (const auto& [material, entry] : scan_mtl(file.string(), text)) entries[material] = entry;
-    std::istringstream stream(without_comments(text));
-    tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
+    for (const auto& [material, entry] : scan_mtl(file.string(), read_text(file.string())))
+      entries[material] = entry;
     return true;
   }
 
@@ -80,18 +73,16 @@ Parsed parse(const std::string& file, const std::string& text, Libraries& librar
 }
 
 /// The materials that faces use, by their names; what is not in a library has reflectance 0.5.
-void add_materials(Scene& scene, const ObjScan& scan, const Parsed& parsed, const Libraries& libraries) {
+void add_materials(Scene& scene, const ObjScan& scan, const Libraries& libraries) {
   std::size_t undefined = 0, textured = 0;
   for (const std::string& name : scan.material_names) {
     Material material;
     material.name = name.empty() ? "default" : name;
     const auto entry = libraries.entries.find(name);
     undefined += !name.empty() && entry == libraries.entries.end();
-    for (const tinyobj::material_t& read : parsed.materials) {
-      if (trimmed(read.name) != name || entry == libraries.entries.end()) continue;
-      if (entry->second.has_diffuse)
-        material.reflectance = Color(read.diffuse[0], read.diffuse[1], read.diffuse[2]);
-      material.emission = std::numbers::pi * Color(read.emission[0], read.emission[1], read.emission[2]);
+    if (entry != libraries.entries.end()) {
+      if (entry->second.diffuse) material.reflectance = *entry->second.diffuse;
+      material.emission = std::numbers::pi * entry->second.emission;
       textured += entry->second.has_texture;
     }
     scene.materials.push_back(material);
@@ -121,7 +112,7 @@ Scene import_obj(const std::filesystem::path& path) {
     scene.notes.push_back(
         fmt::format("{} lines are no OBJ statements and were left out, the first is line {}",
                     scan.unknown_lines, scan.first_unknown_line));
-  add_materials(scene, scan, parsed, libraries);
+  add_materials(scene, scan, libraries);
 
   std::size_t line = 0;
   for (const tinyobj::shape_t& shape : parsed.shapes) {

@@ -166,8 +166,11 @@ class PlyReader {
   std::vector<double> property_values(const PlyProperty& property) {
     if (!property.is_list) return {body_.number(property.type)};
     const double count = body_.number(property.count_type);
-    if (!(count >= 0 && count <= static_cast<double>(body_.remaining()) && count == std::floor(count)))
-      body_.fail_here(fmt::format("a list cannot have {} entries here", count));
+    if (!(count >= 0 && count == std::floor(count)))
+      body_.fail_here(fmt::format("a list cannot have {} entries", count));
+    if (count > static_cast<double>(body_.remaining()))
+      body_.fail_here(
+          fmt::format("a list of {} entries is announced, but the file ends; it may be truncated", count));
     std::vector<double> values;
     for (double k = 0; k < count; ++k) values.push_back(body_.number(property.type));
     return values;

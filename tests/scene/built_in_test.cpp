@@ -103,8 +103,10 @@ TEST(CornellBox, IsOpenAtTheFrontOnly) {
 TEST(CornellBox, MeetsTheWantedNumberOfPatches) {
   for (const char* name : {"cornell-box", "cornell-box-closed"})
     for (const Index wanted : {800, 3300, 13000}) {
-      const auto count = static_cast<double>(make_patches(built_in_scene(name), {.patches = wanted}).patch_count());
-      EXPECT_NEAR(count / static_cast<double>(wanted), 1, wanted == 3300 ? 0.03 : 0.05) << name << " " << wanted;
+      const auto count =
+          static_cast<double>(make_patches(built_in_scene(name), {.patches = wanted}).patch_count());
+      EXPECT_NEAR(count / static_cast<double>(wanted), 1, wanted == 3300 ? 0.03 : 0.05)
+          << name << " " << wanted;
     }
 }
 
