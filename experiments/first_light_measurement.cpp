@@ -61,6 +61,7 @@ FirstLightMeasurement measure_first_light(const FirstLightOptions& options, cons
                                           const SolverRegistry& solvers, Monitor& monitor) {
   if (options.patches.empty()) fail<UsageError>("first light needs at least one number of patches");
   FirstLightMeasurement measurement;
+  measurement.tolerance = options.tolerance;
   for (const Index patches : options.patches)
     measurement.sizes.push_back(
         measure_size(patches, options, operators, solvers, measurement.machine, monitor));

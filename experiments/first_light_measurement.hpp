@@ -40,6 +40,7 @@ struct FirstLightSize {
 
 /// The measurements at each size, and the machine.
 struct FirstLightMeasurement {
+  double tolerance = 0;  ///< relative residual at which the operators' solutions stopped
   Machine machine;
   std::vector<FirstLightSize> sizes;
 };

@@ -39,11 +39,12 @@ ReportTable form_factor_table(const FirstLightMeasurement& measurement) {
 
 ReportTable operator_table(const FirstLightMeasurement& measurement) {
   ReportTable table;
-  table.caption =
+  table.caption = fmt::format(
       "Operators on the same form factors, lit by the scene's own light. Errors are relative and weighted by "
-      "area, against the double-precision solution; solvers stop at a relative residual of 1e-8, which is "
-      "what dense and csr have left. The last line of each size is what one-ray form "
-      "factors do to that solution.";
+      "area, against the double-precision solution; solvers stop at a relative residual of {:.0e}, which is "
+      "what exact operators have left. The last line of each size is what one-ray form factors do to that "
+      "solution.",
+      measurement.tolerance);
   table.columns = {"patches",  "operator",   "MB",   "apply, ms", "solve, ms",
                    "products", "error in T", "in B", "in B − E"};
   table.text_columns = 2;

@@ -24,7 +24,7 @@ p{max-width:42rem}.about,.command,figcaption{color:var(--muted);font-size:.875re
 nav{margin:1.2rem 0;padding:.6rem 0;border-block:1px solid var(--rule)}nav a{margin-right:1.2rem}
 a{color:inherit}
 figure{margin:1.6rem 0}figure img,figure svg{display:block;max-width:100%;height:auto}
-figure.picture{display:inline-block;vertical-align:top;width:29rem;max-width:100%;margin:1rem 1rem 0 0}
+figure.picture{display:inline-block;vertical-align:top;width:27.5rem;max-width:100%;margin:1rem 1rem 0 0}
 .wide{overflow-x:auto}.wide svg{min-width:44rem}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
 figcaption{padding:.4rem 0;max-width:42rem}
@@ -69,7 +69,7 @@ std::string to_html(const ReportTable& table) {
 std::string to_html(const ReportFigure& figure) {
   const auto* svg = std::get_if<std::string>(&figure.image);
   const std::string caption = escape_markup(figure.caption);
-  const std::string image = svg ? *svg
+  const std::string image = svg ? "<div class=\"wide\">\n" + *svg + "</div>\n"
                                 : fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", caption,
                                               base64(std::get<std::vector<std::uint8_t>>(figure.image)));
   return (svg ? "<figure>\n" : "<figure class=\"picture\">\n") + image + "<figcaption>" + caption +
