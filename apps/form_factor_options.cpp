@@ -58,7 +58,8 @@ FormFactors obtain_form_factors(const std::shared_ptr<const PatchMesh>& mesh, co
     fail("the form factors of {} patches take up to {}, {}: use fewer patches (--patches, --edge)",
          mesh->patch_count(), byte_text(bytes), limit);
   };
-  if (bytes > machine_memory()) refuse(fmt::format("and this machine has {}", byte_text(machine_memory())));
+  if (bytes > machine_memory())
+    refuse(fmt::format("and this machine has {} of memory", byte_text(machine_memory())));
   try {
     FormFactors form_factors = compute_form_factors(mesh, choice.options, monitor);
     if (!choice.save_file.empty()) save_kernel(choice.save_file, form_factors);
