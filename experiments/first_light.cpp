@@ -25,6 +25,8 @@ ReportSection first_light(const std::filesystem::path& folder, const std::string
   for (const bool interpolate : {true, false}) {
     const auto file = folder / (interpolate ? "first_light_smooth.png" : "first_light_flat.png");
     PictureOptions picture;
+    picture.width = options.picture_size;
+    picture.height = options.picture_size;
     picture.interpolate = interpolate;
     write_solution(file, *finest.mesh, finest.radiosity, picture, monitor);
     const std::string shading = interpolate ? "interpolated between the corners of patches that share a plane"

@@ -16,6 +16,7 @@ struct FirstLightOptions {
   std::vector<std::string> operators = {"dense", "dense:f32", "dense:f16", "csr"};
   double tolerance = 1e-8;  ///< relative residual of the operators' solutions: below the errors to be shown
   int reference_paths = 8192;  ///< of the path tracer, from each patch
+  int picture_size = 800;      ///< pixels each way
   std::uint64_t seed = 1;
 };
 

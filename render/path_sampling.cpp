@@ -7,11 +7,11 @@
 namespace radiosity {
 
 Vector3 point_on_patch(const PatchMesh& mesh, Index patch, double u, double v) {
-  const Vector3 a = mesh.corner(patch, 0);
+  const Vector3& a = mesh.corner(patch, 0);
   Vector3 b = mesh.corner(patch, 1);
   Vector3 c = mesh.corner(patch, 2);
   if (mesh.patches[static_cast<std::size_t>(patch)].corner_count == 4) {
-    const Vector3 d = mesh.corner(patch, 3);
+    const Vector3& d = mesh.corner(patch, 3);
     const double first = (b - a).cross(c - a).norm();
     const double second = (c - a).cross(d - a).norm();
     const double share = first / (first + second);

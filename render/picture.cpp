@@ -64,8 +64,9 @@ Picture render_picture(const PatchMesh& mesh, const Eigen::MatrixXd& B, const Pi
     for (int x = 0; x < options.width; ++x) {
       Color sum = Color::Zero();
       for (int k = 0; k < samples * samples; ++k) {
+        const int row_of_samples = k / samples;
         const double sample_x = x + (k % samples + 0.5) / samples;
-        const double sample_y = y + (k / samples + 0.5) / samples;
+        const double sample_y = y + (row_of_samples + 0.5) / samples;
         const PatchHit hit = rays.first_front(camera.origin(), camera.direction(sample_x, sample_y));
         if (!hit.missed()) sum += shading.radiance(hit);
       }

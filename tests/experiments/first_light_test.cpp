@@ -56,6 +56,7 @@ TEST(FirstLight, WritesFilesAndASection) {
   options.patches = {70, 120};
   options.reference_paths = 64;
   options.operators = {"dense", "csr"};
+  options.picture_size = 60;
   SilentMonitor monitor;
   const ReportSection section = first_light(folder, "radiosity reproduce first-light", options,
                                             cpu_operators(), cpu_solvers(), monitor);
