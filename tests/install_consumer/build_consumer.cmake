@@ -33,8 +33,9 @@ if(SANITIZE)
 endif()
 run(${CMAKE_COMMAND} -S ${CONSUMER_FOLDER} -B ${WORK_FOLDER}/build -G Ninja -D CMAKE_BUILD_TYPE=${BUILD_TYPE}
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} "-DCMAKE_CXX_FLAGS=${flags}"
-    -D CMAKE_PREFIX_PATH=${WORK_FOLDER}/moved)
+    -D CMAKE_PREFIX_PATH=${WORK_FOLDER}/moved -D README=${source_folder}/README.md)
 run(${CMAKE_COMMAND} --build ${WORK_FOLDER}/build)
 run(${WORK_FOLDER}/build/consumer ${WORK_FOLDER}/comparison.json)
 message("${output}")
+run(${WORK_FOLDER}/build/readme_example)
 run(${WORK_FOLDER}/moved/bin/radiosity info cube)
