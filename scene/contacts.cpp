@@ -142,6 +142,7 @@ class ContactFinder {
   bool is_sheet(std::size_t f, std::size_t g) const {
     const auto corners = [&](const Face& face) {
       std::vector<int> result;
+      result.reserve(4);
       for (int k = 0; k < face.corner_count; ++k)
         result.push_back(welded_[static_cast<std::size_t>(face.corners[static_cast<std::size_t>(k)])]);
       std::sort(result.begin(), result.end());

@@ -33,7 +33,8 @@ Scene import_scene(const std::filesystem::path& file) {
          file.string());
   if (!std::filesystem::exists(file)) fail("there is no file '{}'", file.string());
   if (extension == ".obj") return import_obj(file);
-  return extension == ".ply" ? import_ply(file) : import_with_assimp(file);
+  if (extension == ".ply") return import_ply(file);
+  return extension == ".stl" ? import_stl(file) : import_with_assimp(file);
 }
 
 Scene open_scene(const std::string& name_or_file) {

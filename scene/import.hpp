@@ -7,10 +7,10 @@
 
 namespace radiosity {
 
-/// Reads OBJ+MTL (double precision), PLY, STL, glTF and GLB. Planar convex quads stay quads, other polygons
-/// become triangles. MTL Ke and glTF emissive are radiance: emission = pi Ke. No material: reflectance 0.5.
-/// Throws Error with file (and line, where the format has lines) for anything unreadable: NaN, infinity, bad
-/// indices, empty and truncated files.
+/// Reads OBJ+MTL, PLY and STL text in double precision, glTF and GLB in single. Planar convex quads stay
+/// quads, other polygons become triangles. MTL Ke and glTF emissive are radiance: emission = pi Ke. No
+/// material: reflectance 0.5. Throws Error with file (and line, where the format has lines) for anything
+/// unreadable: NaN, infinity, bad indices, empty and truncated files.
 Scene import_scene(const std::filesystem::path& file);
 
 /// A file if `name_or_file` names one or has a known extension, else a built-in scene.

@@ -137,7 +137,6 @@ class Converter {
 
 void check_before_reading(const std::string& file, const std::string& extension) {
   const std::string content = read_text(file);
-  if (extension == ".stl") check_stl(file, content);
   if (extension == ".glb") check_glb(file, content);
 }
 

@@ -5,10 +5,8 @@
 
 namespace radiosity {
 
-/// What can be checked of a file before a library reads it: that the counts it announces fit its size, so
-/// that a damaged count neither exhausts the memory nor reads beyond the end, and that its text holds no NaN.
-/// All throw Error.
-void check_stl(const std::string& file, std::string_view content);
+/// What can be checked of a GLB file before a library reads it: that the lengths it announces fit its size,
+/// so that a damaged one does not read beyond the end. Throws Error.
 void check_glb(const std::string& file, std::string_view content);
 
 }  // namespace radiosity

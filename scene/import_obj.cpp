@@ -55,21 +55,16 @@ class Libraries final : public tinyobj::MaterialReader {
   std::filesystem::path folder_;
 };
 
-struct Parsed {
+std::vector<tinyobj::shape_t> parse(const std::string& file, const std::string& text, Libraries& libraries) {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
-};
-
-Parsed parse(const std::string& file, const std::string& text, Libraries& libraries) {
-  Parsed parsed;
   std::string warning, error;
   std::istringstream stream(without_comments(text));
   const bool triangulate = false;
-  if (!tinyobj::LoadObj(&parsed.attributes, &parsed.shapes, &parsed.materials, &warning, &error, &stream,
-                        &libraries, triangulate))
+  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, &libraries, triangulate))
     fail("'{}' cannot be read: {}", file, error.substr(0, error.find('\n')));
-  return parsed;
+  return shapes;
 }
 
 /// The materials that faces use, by their names; what is not in a library has reflectance 0.5.
@@ -101,7 +96,7 @@ Scene import_obj(const std::filesystem::path& path) {
   ObjScan scan = scan_obj(file, text);
   if (scan.faces.empty()) fail("'{}' has no faces: nothing to light", file);
   Libraries libraries(path.parent_path());
-  const Parsed parsed = parse(file, text, libraries);
+  const std::vector<tinyobj::shape_t> shapes = parse(file, text, libraries);
 
   ImportedFaces faces(path.stem().string());
   Scene& scene = faces.scene();
@@ -115,7 +110,7 @@ Scene import_obj(const std::filesystem::path& path) {
   add_materials(scene, scan, libraries);
 
   std::size_t line = 0;
-  for (const tinyobj::shape_t& shape : parsed.shapes) {
+  for (const tinyobj::shape_t& shape : shapes) {
     std::size_t start = 0;
     for (const std::size_t count : shape.mesh.num_face_vertices) {
       if (line == scan.faces.size()) fail("'{}' cannot be read: it has more faces than face lines", file);
