@@ -7,7 +7,7 @@ namespace {
 
 BlockerSides sides_of(const ConvexPolygon& polygon, const Plane& plane,
                       const std::vector<Blocker>& blockers) {
-  constexpr double touch = PatchGeometry::slack;
+  constexpr double touch = coplanar_slack;
   BlockerSides sides;
   for (std::size_t b = 0; b < blockers.size(); ++b) {
     double low = 1e300, high = -1e300, ahead = -1e300;

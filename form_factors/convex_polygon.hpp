@@ -9,6 +9,11 @@
 
 namespace radiosity {
 
+/// Heights up to this count as "in the plane", in a scene scaled to a box of side 1: what float32 coordinates
+/// of a file leave open. So the bottom of a box that stands on a floor does not see the floor through a gap
+/// of rounding.
+inline constexpr double coplanar_slack = 3e-7;
+
 /// A planar convex polygon of a few corners, counter-clockwise seen from its front. A patch has 3 or 4
 /// corners; a patch clipped by one plane has at most one more.
 class ConvexPolygon {

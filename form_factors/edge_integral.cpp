@@ -67,25 +67,34 @@ double meeting_edges(const Vector3d& meeting, const Vector3d& u, double s0, doub
   return 0.5 * sum;
 }
 
-double distance_to_edge(const Vector3d& p, const Vector3d& b0, const Vector3d& v, double length) {
-  const double along = std::clamp((p - b0).dot(v), 0.0, length);
-  return (p - b0 - along * v).norm();
-}
-
-struct InnerEdge {
-  Vector3d start, direction;
-  double length;
+// Two edges whose lines are skew: points a + s u and b + t v, nearest to each other at s = near with the
+// distance gap.
+struct SkewEdges {
+  Vector3d a, u, b, v;
+  double b_length;
+  double near;
+  double branch;  // gap / sine of the angle between the lines
 };
 
-// Gauss-Legendre over a piece of the outer edge. The inner integral is analytic within the distance d from
-// the piece's midpoint to the inner edge, so with q = d / half length the error falls as (q + sqrt(q^2 -
-// 1))^(-2 points).
-double outer_quadrature(const Vector3d& a0, const Vector3d& u, double s0, double s1, const InnerEdge& b,
-                        double tolerance, int depth) {
+// The inner integral as a function of complex s is analytic around `middle` up to the ends of b, seen from
+// there, and, where the foot of s falls on b, up to near +- i branch, where the distance of the lines
+// vanishes. Edges that run close along each other are therefore no trouble in between their ends.
+double analytic_radius(const SkewEdges& edges, double middle) {
+  const Vector3d p = edges.a + middle * edges.u - edges.b;
+  const double foot = p.dot(edges.v);
+  const double to_ends = std::min(p.norm(), (p - edges.b_length * edges.v).norm());
+  const double to_branch = std::hypot(edges.near - middle, edges.branch);
+  const bool on_edge = foot > -to_branch && foot < edges.b_length + to_branch;
+  return on_edge ? std::min(to_ends, to_branch) : to_ends;
+}
+
+// Gauss-Legendre over a piece of the outer edge. With q = analytic radius / half length the error falls as
+// (q + sqrt(q^2 - 1))^(-2 points); pieces with too small a q are halved.
+double outer_quadrature(const SkewEdges& edges, double s0, double s1, double tolerance, int depth) {
   static const std::array<GaussLegendre, 5> rules = {GaussLegendre(4), GaussLegendre(6), GaussLegendre(8),
                                                      GaussLegendre(12), GaussLegendre(16)};
   const double half = 0.5 * (s1 - s0), middle = 0.5 * (s0 + s1);
-  const double q = distance_to_edge(a0 + middle * u, b.start, b.direction, b.length) / half;
+  const double q = analytic_radius(edges, middle) / half;
   const GaussLegendre* rule = nullptr;
   if (q > 1.2) {
     const double log_rate = std::log(q + std::sqrt(q * q - 1));
@@ -96,13 +105,13 @@ double outer_quadrature(const Vector3d& a0, const Vector3d& u, double s0, double
       }
   }
   if (!rule && depth > 0)
-    return outer_quadrature(a0, u, s0, middle, b, tolerance, depth - 1) +
-           outer_quadrature(a0, u, middle, s1, b, tolerance, depth - 1);
+    return outer_quadrature(edges, s0, middle, tolerance, depth - 1) +
+           outer_quadrature(edges, middle, s1, tolerance, depth - 1);
   if (!rule) rule = &rules.back();
   double sum = 0;
   for (std::size_t k = 0; k < rule->node.size(); ++k)
-    sum += rule->weight[k] *
-           point_edge_integral(a0 + (middle + half * rule->node[k]) * u, b.start, b.direction, b.length);
+    sum += rule->weight[k] * point_edge_integral(edges.a + (middle + half * rule->node[k]) * edges.u, edges.b,
+                                                 edges.v, edges.b_length);
   return sum * half;
 }
 
@@ -120,15 +129,15 @@ double edge_log_integral(const Vector3d& a0, const Vector3d& a1, const Vector3d&
 
   const Vector3d w = b0 - a0;
   const double gap = std::abs(w.dot(normal)) / std::sqrt(sine_squared);
-  if (gap < 1e-11 && sine_squared > 1e-12) {
-    const double s = w.cross(v).dot(normal) / sine_squared;  // the lines meet at a0 + s u = b0 + t v
-    const double t = w.cross(u).dot(normal) / sine_squared;
-    if (std::abs(s) < 1e3 && std::abs(t) < 1e3) {
-      const auto snap = [](double x) { return std::abs(x) < 1e-14 ? 0 : x; };
-      return meeting_edges(a0 + s * u, u, snap(-s), snap(a_length - s), v, snap(-t), snap(b_length - t));
-    }
+  const double s = w.cross(v).dot(normal) / sine_squared;  // the lines are nearest at a0 + s u and b0 + t v
+  const double t = w.cross(u).dot(normal) / sine_squared;
+  if (gap < 1e-11 && sine_squared > 1e-12 && std::abs(s) < 1e3 && std::abs(t) < 1e3) {
+    const auto snap = [](double x) { return std::abs(x) < 1e-14 ? 0 : x; };
+    return meeting_edges(a0 + s * u, u, snap(-s), snap(a_length - s), v, snap(-t), snap(b_length - t));
   }
-  return outer_quadrature(a0, u, 0, a_length, {b0, v, b_length}, tolerance, 40);
+  const SkewEdges edges{a0, u, b0, v, b_length, s, gap / std::sqrt(sine_squared)};
+  constexpr int most_halvings = 40;
+  return outer_quadrature(edges, 0, a_length, tolerance, most_halvings);
 }
 
 }  // namespace radiosity

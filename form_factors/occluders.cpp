@@ -23,8 +23,6 @@ struct Occluders::Tracer {
 
 namespace {
 
-constexpr double kOnHull = 1e-9;
-
 void fill_ray(const RayPacket& packet, RTCRay16& ray, float far) {
   for (int k = 0; k < RayPacket::size; ++k) {
     ray.org_x[k] = packet.origin_x[k];
@@ -110,8 +108,8 @@ void Occluders::find_blockers(const std::vector<ConvexPolygon>& faces) {
     bool in_front = false, behind = false;
     for (const Eigen::Vector3d& point : points) {
       const double height = plane.height(point);
-      in_front |= height > kOnHull;
-      behind |= height < -kOnHull;
+      in_front |= height > coplanar_slack;
+      behind |= height < -coplanar_slack;
       if (in_front && behind) break;
     }
     if (in_front && behind) blockers_.emplace_back(face);

@@ -62,7 +62,7 @@ AssembledKernel assemble_one_ray(const PatchMesh& mesh, const PatchGeometry& geo
     for (int j = i + 1; j < n; ++j) {
       const Vector3d d = points[static_cast<std::size_t>(j)] - points[row];
       const double leaving = d.dot(geometry.plane(i).normal), arriving = -d.dot(geometry.plane(j).normal);
-      if (leaving <= PatchGeometry::slack || arriving <= PatchGeometry::slack) continue;
+      if (leaving <= coplanar_slack || arriving <= coplanar_slack) continue;
       const double square = d.squaredNorm();
       const Vector3d end =
           points[static_cast<std::size_t>(j)] + double{PairSampler::stand_off} * geometry.plane(j).normal;

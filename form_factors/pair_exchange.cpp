@@ -16,7 +16,7 @@ double quadrature_tolerance(double tolerance) {
 
 bool all_behind(const std::vector<Eigen::Vector3d>& points, const Plane& plane) {
   return std::all_of(points.begin(), points.end(),
-                     [&](const Eigen::Vector3d& p) { return plane.height(p) <= PatchGeometry::slack; });
+                     [&](const Eigen::Vector3d& p) { return plane.height(p) <= coplanar_slack; });
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ void PairExchange::decide(int i, const PatchCluster& cluster, std::size_t blocke
   bool untried = direction.squaredNorm() > 0;
   for (int l = 0; l < count; ++l) {
     if (untried) {
-      const double limit = lowest(direction, blocker) - PatchGeometry::slack;
+      const double limit = lowest(direction, blocker) - coplanar_slack;
       double own_high = -1e300;
       for (const Eigen::Vector3d& corner : own) own_high = std::max(own_high, direction.dot(corner));
       if (own_high < limit) {

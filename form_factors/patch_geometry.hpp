@@ -34,8 +34,6 @@ class PatchGeometry {
   explicit PatchGeometry(const PatchMesh& mesh);
 
   static constexpr int cluster_size = 32;
-  /// Heights below this count as "in the plane"; lengths of the scaled scene.
-  static constexpr double slack = 1e-9;
 
   int patch_count() const { return static_cast<int>(to_mesh_.size()); }
   int to_mesh(int patch) const { return to_mesh_[static_cast<std::size_t>(patch)]; }

@@ -18,7 +18,7 @@ UnobstructedExchange::UnobstructedExchange(const PatchGeometry& geometry, double
 double UnobstructedExchange::by_contour(int i, int j) const {
   // One order of the two, so that F_ij and F_ji come from the same number.
   const int first = std::min(i, j), second = std::max(i, j);
-  const double slack = PatchGeometry::slack;
+  const double slack = coplanar_slack;
   const ConvexPolygon a = clip(geometry_.polygon(first), geometry_.plane(second), slack);
   if (a.corner_count() < 3) return 0;
   const ConvexPolygon b = clip(geometry_.polygon(second), geometry_.plane(first), slack);
@@ -28,7 +28,7 @@ double UnobstructedExchange::by_contour(int i, int j) const {
 
 void UnobstructedExchange::with_cluster(int i, const PatchCluster& cluster, double* exchange) const {
   const int count = cluster.end - cluster.begin;
-  const double slack = PatchGeometry::slack;
+  const double slack = coplanar_slack;
   PairHeights heights;
   geometry_.quadrature().classify(i, cluster.begin, cluster.end, heights);
 

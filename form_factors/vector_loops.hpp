@@ -69,12 +69,11 @@ struct VectorLoops {
   void (*classify)(const PatchArrays&, int i, int begin, int end, PairHeights&);
   void (*exchange)(const PatchArrays&, const PointArrays&, int own_points, int other_points, int i, int begin,
                    int end, double* result);
-  /// crosses[l] = 1 (else 0) where the segment between the centres of i and begin + l passes through the polygon.
-  void (*crosses)(const PatchArrays&, const BlockerPlanes&, int i, int begin, int end,
-                  double* crosses);
+  /// crosses[l] = 1 (else 0) where the segment between the centres of i and begin + l passes through the
+  /// polygon.
+  void (*crosses)(const PatchArrays&, const BlockerPlanes&, int i, int begin, int end, double* crosses);
   /// below[l] = 1 (else 0) where all corners of patch begin + l lie below `limit` along a direction.
-  void (*below)(const PatchArrays&, const double* direction, double limit, int begin, int end,
-                double* below);
+  void (*below)(const PatchArrays&, const double* direction, double limit, int begin, int end, double* below);
   void (*fill)(const PatchChart& from, const PatchChart& to, const SobolNet& net, const std::uint32_t* high,
                RayPacket& packet, float* weight);
   void (*tally)(const RayPacket& packet, const float* weight, double* visible, double* all);
