@@ -172,7 +172,8 @@ class PlyReader {
       body_.fail_here(
           fmt::format("a list of {} entries is announced, but the file ends; it may be truncated", count));
     std::vector<double> values;
-    for (double k = 0; k < count; ++k) values.push_back(body_.number(property.type));
+    for (auto k = static_cast<std::uint64_t>(count); k > 0; --k)
+      values.push_back(body_.number(property.type));
     return values;
   }
 

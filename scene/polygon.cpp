@@ -24,6 +24,16 @@ double roundness(const Polygon& polygon) {
   return diameter > 0 ? area_vector(polygon).norm() / diameter : 0;
 }
 
+/// The quad of the corners from `k` on, and what is left of the polygon.
+std::pair<Polygon, Polygon> cut_off_quad(const Polygon& polygon, std::size_t k) {
+  Polygon corners = polygon;
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(k), corners.end());
+  Polygon remainder(corners.begin() + 3, corners.end());
+  remainder.push_back(corners.front());
+  corners.resize(4);
+  return {std::move(corners), std::move(remainder)};
+}
+
 /// Worst roundness of what the polygons become as patches, and their number.
 struct Quality {
   double worst = std::numeric_limits<double>::infinity();
@@ -180,24 +190,19 @@ std::vector<Polygon> triangles_and_quads(const Polygon& polygon) {
   std::vector<Polygon> result;
   Polygon rest = polygon;
   while (rest.size() > 4) {
-    const std::size_t n = rest.size();
-    std::size_t best = 0;
+    std::pair<Polygon, Polygon> best;
     double best_roundness = -1;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Polygon quad = {rest[k], rest[(k + 1) % n], rest[(k + 2) % n], rest[(k + 3) % n]};
-      Polygon remainder;
-      for (std::size_t step = 3; step <= n; ++step) remainder.push_back(rest[(k + step) % n]);
-      const double worst = std::min(roundness(quad), roundness(remainder));
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+      std::pair<Polygon, Polygon> cut = cut_off_quad(rest, k);
+      const double worst = std::min(roundness(cut.first), roundness(cut.second));
       if (worst <= best_roundness) continue;
-      best = k;
+      best = std::move(cut);
       best_roundness = worst;
     }
-    result.push_back({rest[best], rest[(best + 1) % n], rest[(best + 2) % n], rest[(best + 3) % n]});
-    Polygon remainder;
-    for (std::size_t step = 3; step <= n; ++step) remainder.push_back(rest[(best + step) % n]);
-    rest = std::move(remainder);
+    result.push_back(std::move(best.first));
+    rest = std::move(best.second);
   }
-  if (rest.size() >= 3) result.push_back(rest);
+  if (rest.size() >= 3) result.push_back(std::move(rest));
   return result;
 }
 
