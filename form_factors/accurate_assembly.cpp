@@ -43,34 +43,54 @@ class TilePattern {
   std::vector<std::vector<Index>> tiles_;
 };
 
-// What the pairs of one cluster with all later ones came to.
-struct ClusterRow {
+// A piece of the work: patches first ... last - 1 of a cluster with this and all later clusters.
+struct Task {
+  std::size_t cluster;
+  int first, last;
+};
+
+// Whole clusters share what is known of a pair of clusters; a scene of few clusters is cut finer, for all
+// threads.
+std::vector<Task> make_tasks(const std::vector<PatchCluster>& clusters) {
+  constexpr std::size_t enough = 64;
+  const int size = clusters.size() >= enough ? PatchGeometry::cluster_size : 1;
+  std::vector<Task> tasks;
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    for (int first = clusters[c].begin; first < clusters[c].end; first += size)
+      tasks.push_back({c, first, std::min(first + size, clusters[c].end)});
+  return tasks;
+}
+
+// What the pairs of one task came to.
+struct TaskResult {
   std::uint64_t rays = 0;
   std::map<std::pair<int, int>, double> group_variance;  // of the exchange A_i F_ij, scaled scene
 };
 
-void evaluate_row(const PairExchange& exchange, std::size_t own_number, SymmetricTiles<double>& kernel,
-                  ClusterRow& row) {
+TaskResult evaluate(const PairExchange& exchange, const Task& task, SymmetricTiles<double>& kernel,
+                    const Monitor& monitor) {
   const PatchGeometry& geometry = exchange.geometry();
   const auto& clusters = geometry.clusters();
-  const PatchCluster& own = clusters[own_number];
+  TaskResult total;
   ClusterExchange result;
   ExchangeWorkspace workspace = exchange.make_workspace();
-  for (std::size_t b = own_number; b < clusters.size(); ++b) {
-    const auto pair = exchange.relate(own, clusters[b]);
+  for (std::size_t b = task.cluster; b < clusters.size(); ++b) {
+    const auto pair = exchange.relate(clusters[task.cluster], clusters[b]);
     if (pair.nothing) continue;
-    for (int i = own.begin; i < own.end; ++i) {
+    if (monitor.cancelled()) throw Cancelled();
+    for (int i = task.first; i < task.last; ++i) {
       exchange.evaluate(i, pair, i + 1, workspace, result);
-      row.rays += result.rays;
+      total.rays += result.rays;
       for (int l = 0; l < clusters[b].end - clusters[b].begin; ++l) {
         const int j = clusters[b].begin + l;
         if (result.kernel[l] != 0) kernel.set(geometry.to_mesh(i), geometry.to_mesh(j), result.kernel[l]);
         if (result.variance[l] > 0)
-          row.group_variance[{geometry.group(i), geometry.group(j)}] +=
+          total.group_variance[{geometry.group(i), geometry.group(j)}] +=
               result.variance[l] * geometry.area(i) * geometry.area(j);
       }
     }
   }
+  return total;
 }
 
 // Whether dropping zero tiles is worth a copy of the others.
@@ -83,11 +103,11 @@ bool many_zero_tiles(const SymmetricTiles<double>& kernel) {
   return 10 * zero > kernel.tile_count();
 }
 
-Eigen::MatrixXd variance_between_groups(const std::vector<ClusterRow>& rows, const PatchGeometry& geometry,
+Eigen::MatrixXd variance_between_groups(const std::vector<TaskResult>& results, const PatchGeometry& geometry,
                                         Index groups) {
   Eigen::MatrixXd variance = Eigen::MatrixXd::Zero(groups, groups);
-  for (const ClusterRow& row : rows)
-    for (const auto& [pair, value] : row.group_variance) {
+  for (const TaskResult& result : results)
+    for (const auto& [pair, value] : result.group_variance) {
       const auto [g, h] = pair;
       // Within a group both directions of a pair carry the same error.
       const double both = g == h ? 4 : 1;
@@ -108,18 +128,19 @@ AssembledKernel assemble_accurate(const PatchMesh& mesh, const PairExchange& exc
       if (exchange.may_exchange(geometry.clusters()[a], geometry.clusters()[b])) pattern.add(a, b);
 
   auto kernel = std::make_shared<SymmetricTiles<double>>(mesh.patch_count(), std::cref(pattern));
-  std::vector<ClusterRow> rows(clusters);
+  const std::vector<Task> tasks = make_tasks(geometry.clusters());
+  std::vector<TaskResult> results(tasks.size());
   std::atomic<std::size_t> done{0};
-  const double pairs = 0.5 * static_cast<double>(clusters) * static_cast<double>(clusters + 1);
-  parallel_for(clusters, [&](std::size_t a) {
-    evaluate_row(exchange, a, *kernel, rows[a]);
-    monitor.checkpoint("form factors", static_cast<double>(done += clusters - a) / pairs);
+  const double pairs = 0.5 * static_cast<double>(tasks.size()) * static_cast<double>(tasks.size() + 1);
+  parallel_for(tasks.size(), [&](std::size_t t) {
+    results[t] = evaluate(exchange, tasks[t], *kernel, monitor);
+    monitor.checkpoint("form factors", static_cast<double>(done += tasks.size() - t) / pairs);
   });
 
   AssembledKernel result;
-  for (const ClusterRow& row : rows) result.rays += row.rays;
+  for (const TaskResult& part : results) result.rays += part.rays;
   result.group_variance =
-      variance_between_groups(rows, geometry, static_cast<Index>(mesh.scene->groups.size()));
+      variance_between_groups(results, geometry, static_cast<Index>(mesh.scene->groups.size()));
   result.kernel = many_zero_tiles(*kernel)
                       ? std::make_shared<SymmetricTiles<double>>(kernel->without_zero_tiles())
                       : kernel;
