@@ -9,10 +9,6 @@
 namespace radiosity {
 namespace {
 
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
 Json difference_json(const ReferenceComparison& difference) {
   return {{"mean", difference.mean_difference},
           {"mean_standard_error", difference.mean_difference_standard_error},

@@ -11,10 +11,6 @@ namespace radiosity {
 
 namespace {
 
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
 Json timing_json(const Timing& timing) {
   return {{"min", timing.min}, {"median", timing.median}};
 }

@@ -14,6 +14,10 @@ std::size_t triangle_count(const Scene& scene) {
   return count;
 }
 
+Json or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
 Json scene_json(const PatchMesh& mesh) {
   return {{"name", mesh.scene->name},       {"triangles", triangle_count(*mesh.scene)},
           {"patches", mesh.patch_count()},  {"channels", mesh.channels()},

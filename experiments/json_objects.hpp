@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 
 namespace radiosity {
 
@@ -16,6 +17,9 @@ using Json = nlohmann::ordered_json;
 
 /// Triangles of the coarse faces; a quad counts as two.
 std::size_t triangle_count(const Scene& scene);
+
+/// Null for a value that does not exist.
+Json or_null(const std::optional<double>& value);
 
 /// The "scene" object of every JSON file: name, triangles, patches, channels, closed, area.
 Json scene_json(const PatchMesh& mesh);

@@ -86,8 +86,9 @@ void AxisMap::fit_linear() {
   const double last = std::ceil(high_ / step - 1e-9);
   if (!axis_.low) low_ = first * step;
   if (!axis_.high) high_ = last * step;
-  for (double k = first; k <= last; ++k) {
-    const double value = k * step;
+  const auto count = static_cast<int>(last - first);
+  for (int k = 0; k <= count; ++k) {
+    const double value = (first + k) * step;
     if (value >= low_ - 1e-9 * step && value <= high_ + 1e-9 * step)
       ticks_.push_back({value, tick_label(value)});
   }

@@ -10,7 +10,7 @@ namespace radiosity {
 
 double contour_exchange(const ConvexPolygon& first, const ConvexPolygon& second, double tolerance) {
   // Scaled to unit size about the first corner, logarithms are of order 1 and cancel best.
-  const Eigen::Vector3d origin = first[0];
+  const Eigen::Vector3d& origin = first[0];
   double size_first = 0, size_second = 0, size = 0;
   for (int k = 0; k < first.corner_count(); ++k) {
     size_first = std::max(size_first, (first[k] - origin).norm());

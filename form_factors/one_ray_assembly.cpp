@@ -34,6 +34,7 @@ AssembledKernel assemble_one_ray(const PatchMesh& mesh, const PatchGeometry& geo
                                  const Occluders& occluders, Monitor& monitor) {
   const int n = geometry.patch_count();
   std::vector<Vector3d> points;
+  points.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) points.push_back(sample_point(geometry.polygon(i)));
   AssembledKernel result;
   result.kernel =

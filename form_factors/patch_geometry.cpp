@@ -28,6 +28,7 @@ std::vector<Vector3d> bounding_box_corners(const std::vector<Vector3d>& points) 
   Vector3d low = points[0], high = points[0];
   for (const Vector3d& point : points) low = low.cwiseMin(point), high = high.cwiseMax(point);
   std::vector<Vector3d> corners;
+  corners.reserve(8);
   for (int k = 0; k < 8; ++k)
     corners.emplace_back((k & 1) ? high.x() : low.x(), (k & 2) ? high.y() : low.y(),
                          (k & 4) ? high.z() : low.z());

@@ -4,10 +4,10 @@
 #include "foundation/output_file.hpp"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -37,13 +37,15 @@ Header parse_header(const std::string& text, const std::string& file) {
   if (type.find("'<f4'") != std::string::npos && type.find("'<f4'") < 8)
     header.single = true;
   else if (type.find("'<f8'") == std::string::npos || type.find("'<f8'") >= 8)
-    fail("'{}' is not an array of float32 or float64 numbers; save it with numpy.save(file, a.astype(float))", file);
+    fail("'{}' is not an array of float32 or float64 numbers; save it with numpy.save(file, a.astype(float))",
+         file);
   const std::string order = quoted_value(text, "fortran_order");
   header.fortran_order = order.find("True") != std::string::npos && order.find("True") < 3;
 
   const std::string shape = quoted_value(text, "shape");
   const auto open = shape.find('('), close = shape.find(')');
-  if (open == std::string::npos || close == std::string::npos) fail("'{}' has no array shape: not a .npy file", file);
+  if (open == std::string::npos || close == std::string::npos)
+    fail("'{}' has no array shape: not a .npy file", file);
   const char* at = shape.data() + open + 1;
   const char* end = shape.data() + close;
   while (at < end) {
@@ -53,7 +55,8 @@ Header parse_header(const std::string& text, const std::string& file) {
     }
     std::int64_t extent = 0;
     const auto [next, error] = std::from_chars(at, end, extent);
-    if (error != std::errc{} || extent < 0) fail("'{}' has an array shape that is not a list of numbers", file);
+    if (error != std::errc{} || extent < 0)
+      fail("'{}' has an array shape that is not a list of numbers", file);
     header.shape.push_back(extent);
     at = next;
   }
@@ -89,8 +92,8 @@ Eigen::MatrixXd read_values(std::ifstream& in, const Header& header, const std::
 }  // namespace
 
 void write_npy(const std::filesystem::path& file, const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
-  std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", matrix.rows(),
-                                   matrix.cols());
+  std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}",
+                                   matrix.rows(), matrix.cols());
   const std::size_t unpadded = kMagic.size() + 2 + header.size() + 1;
   header.append((64 - unpadded % 64) % 64, ' ');
   header.push_back('\n');

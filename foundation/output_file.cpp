@@ -2,23 +2,24 @@
 
 #include "foundation/error.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <unistd.h>
 
 namespace radiosity {
 
 namespace fs = std::filesystem;
 
 OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
-  if (target_.filename().empty()) fail("cannot write '{}': it names a folder; give a file name", target_.string());
+  if (target_.filename().empty())
+    fail("cannot write '{}': it names a folder; give a file name", target_.string());
   temporary_ = target_.parent_path() /
                fmt::format(".{}.{}{}", target_.stem().string(), ::getpid(), target_.extension().string());
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_)
-    fail("cannot write '{}': {}; check the folder and its permissions", target_.string(), std::strerror(errno));
+    fail("cannot write '{}': {}; check the folder and its permissions", target_.string(),
+         std::strerror(errno));
 }
 
 OutputFile::~OutputFile() {

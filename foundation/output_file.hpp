@@ -5,8 +5,8 @@
 
 namespace radiosity {
 
-/// A file that appears whole or not at all: written to a temporary name beside the target and renamed by commit().
-/// Without commit() (an exception, say) the temporary file is removed.
+/// A file that appears whole or not at all: written to a temporary name beside the target and renamed by
+/// commit(). Without commit() (an exception, say) the temporary file is removed.
 class OutputFile {
  public:
   /// Throws Error if the folder cannot be written to.

@@ -14,7 +14,8 @@ struct ThreadLimit::Implementation {
 
 ThreadLimit::ThreadLimit(int count) : implementation_(std::make_unique<Implementation>()) {
   if (count > 0)
-    implementation_->control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+    implementation_->control.emplace(tbb::global_control::max_allowed_parallelism,
+                                     static_cast<std::size_t>(count));
 }
 
 ThreadLimit::~ThreadLimit() = default;

@@ -8,8 +8,9 @@
 
 namespace radiosity {
 
-/// Calls body(i) for 0 <= i < count, in parallel and in any order. Each body writes only what belongs to its i,
-/// so that results do not depend on the number of threads. An exception from a body ends the loop and is rethrown.
+/// Calls body(i) for 0 <= i < count, in parallel and in any order. Each body writes only what belongs to its
+/// i, so that results do not depend on the number of threads. An exception from a body ends the loop and is
+/// rethrown.
 template <typename Body>
 void parallel_for(std::size_t count, const Body& body, std::size_t grain = 1) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),

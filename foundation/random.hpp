@@ -11,8 +11,9 @@ constexpr std::uint64_t mix_bits(std::uint64_t word) {
   return word ^ (word >> 31);
 }
 
-/// A small generator that any (seed, stream) pair can start: work item i draws from stream i, so that random numbers
-/// depend neither on the number of threads nor on the order of the work. Meets UniformRandomBitGenerator.
+/// A small generator that any (seed, stream) pair can start: work item i draws from stream i, so that random
+/// numbers depend neither on the number of threads nor on the order of the work. Meets
+/// UniformRandomBitGenerator.
 class RandomStream {
  public:
   using result_type = std::uint64_t;

@@ -5,7 +5,8 @@
 
 namespace radiosity {
 
-/// Wall time, CPU time of the whole process (all threads) and of the calling thread since construction, in seconds.
+/// Wall time, CPU time of the whole process (all threads) and of the calling thread since construction, in
+/// seconds.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

@@ -5,8 +5,20 @@
 #include <cstdlib>
 #include <string>
 
+#if defined(RADIOSITY_X86_KERNELS)
+#include <cpuid.h>
+#endif
+
 namespace radiosity {
 namespace {
+
+#if defined(RADIOSITY_X86_KERNELS)
+// F16C; not every compiler's __builtin_cpu_supports knows it.
+bool converts_halves() {
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  return __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 && (ecx & bit_F16C) != 0;
+}
+#endif
 
 InstructionSet best_of_processor() {
 #if defined(RADIOSITY_X86_KERNELS)
@@ -14,7 +26,7 @@ InstructionSet best_of_processor() {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
     return InstructionSet::avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c"))
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && converts_halves())
     return InstructionSet::avx2;
 #endif
   return InstructionSet::baseline;

@@ -11,10 +11,11 @@ using ConstFieldRef = Eigen::Ref<const Eigen::MatrixXd>;
 using FieldRef = Eigen::Ref<Eigen::MatrixXd>;
 
 /// Y = K X for X and Y of n x c, any c >= 0; Y is written, never read, and does not alias X.
-/// float and Half tiles multiply in float32 within four tiles and add up in double: componentwise error <= 2 n u |K| |X|
-/// with u the unit roundoff of the stored type, barring underflow (X is scaled per column and 256 rows, so only what is
-/// 2^-126 of the largest of them can underflow). The result is the same, bit for bit, for any number of threads, and
-/// that of a column does not depend on the other columns. Throws UsageError where shapes do not fit.
+/// float and Half tiles multiply in float32 within four tiles and add up in double: componentwise error <= 2
+/// n u |K| |X| with u the unit roundoff of the stored type, barring underflow (X is scaled per column and 256
+/// rows, so only what is 2^-126 of the largest of them can underflow). The result is the same, bit for bit,
+/// for any number of threads, and that of a column does not depend on the other columns. Throws UsageError
+/// where shapes do not fit.
 void multiply(const SymmetricTiles<double>& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
 void multiply(const SymmetricTiles<float>& K, const ConstFieldRef& X, FieldRef Y,

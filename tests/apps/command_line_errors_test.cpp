@@ -77,7 +77,7 @@ TEST_P(CommandLineRefusal, SaysWhyInOneLineAndLeavesNothing) {
   EXPECT_EQ(folder.entries(), before);
 }
 
-const std::string output = "out.npy";
+const std::string to_file = "out.npy";
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, CommandLineRefusal,
@@ -103,16 +103,16 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, CommandLineRefusal,
-    testing::Values(Refusal{"unknown_scene", {"solve", "cubus"}, 2, {"cubus", "cube", "cornell-box"}},
-                    Refusal{"missing_file", {"info", "missing.obj"}, 1, {"missing.obj"}},
-                    Refusal{"folder_for_scene", {"info", "."}, 2, {"'.'"}},
-                    Refusal{"unknown_format", {"info", "unknown.xyz"}, 1, {"unknown.xyz"}},
-                    Refusal{
-                        "truncated_obj", {"solve", "truncated.obj", "-o", output}, 1, {"truncated.obj", "3"}},
-                    Refusal{"nan_in_obj", {"solve", "nan.obj", "-o", output}, 1, {"nan.obj", "2"}},
-                    Refusal{"bad_index_in_obj", {"solve", "bad-index.obj"}, 1, {"bad-index.obj", "4"}},
-                    Refusal{"empty_obj", {"solve", "empty.obj"}, 1, {"empty.obj"}},
-                    Refusal{"truncated_ply", {"solve", "truncated.ply"}, 1, {"truncated.ply"}}),
+    testing::Values(
+        Refusal{"unknown_scene", {"solve", "cubus"}, 2, {"cubus", "cube", "cornell-box"}},
+        Refusal{"missing_file", {"info", "missing.obj"}, 1, {"missing.obj"}},
+        Refusal{"folder_for_scene", {"info", "."}, 2, {"'.'"}},
+        Refusal{"unknown_format", {"info", "unknown.xyz"}, 1, {"unknown.xyz"}},
+        Refusal{"truncated_obj", {"solve", "truncated.obj", "-o", to_file}, 1, {"truncated.obj", "3"}},
+        Refusal{"nan_in_obj", {"solve", "nan.obj", "-o", to_file}, 1, {"nan.obj", "2"}},
+        Refusal{"bad_index_in_obj", {"solve", "bad-index.obj"}, 1, {"bad-index.obj", "4"}},
+        Refusal{"empty_obj", {"solve", "empty.obj"}, 1, {"empty.obj"}},
+        Refusal{"truncated_ply", {"solve", "truncated.ply"}, 1, {"truncated.ply"}}),
     refusal_name);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(
                 1,
                 {"none/out.png"}},
         Refusal{"solve_json_folder",
-                {"solve", "cube", "-o", output, "--json", "none/a.json"},
+                {"solve", "cube", "-o", to_file, "--json", "none/a.json"},
                 1,
                 {"none/a.json"}},
         Refusal{"compare_json_folder",

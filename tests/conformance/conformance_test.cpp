@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace radiosity {
 namespace {
 
@@ -35,6 +37,10 @@ struct Parameters {
   double unit_roundoff;
   Index size;
 };
+
+void PrintTo(const Parameters& parameters, std::ostream* out) {
+  *out << parameters.spec << ", n = " << parameters.size;
+}
 
 std::vector<Parameters> all_parameters() {
   std::vector<Parameters> all;

@@ -72,7 +72,8 @@ TEST(DiscCover, RandomTrianglesAgainstAFineGrid) {
     constexpr int cells = 600;
     int inside = 0;
     for (int i = 0; i < cells * cells; ++i) {
-      const Eigen::Vector2d point(-1 + 2 * (i % cells + 0.5) / cells, -1 + 2 * (i / cells + 0.5) / cells);
+      const int row = i / cells, column = i % cells;
+      const Eigen::Vector2d point(-1 + 2 * (column + 0.5) / cells, -1 + 2 * (row + 0.5) / cells);
       bool in = point.squaredNorm() < 1;
       for (std::size_t k = 0; k < 3; ++k)
         in = in && cross(triangle[(k + 1) % 3] - triangle[k], point - triangle[k]) > 0;

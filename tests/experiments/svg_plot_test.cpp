@@ -113,6 +113,7 @@ TEST(LabelPlacement, LabelsDoNotOverlapWhereThereIsRoom) {
   const std::vector<std::array<double, 2>> points = {{100, 100}, {105, 103}, {110, 98}, {390, 10}, {5, 295}};
   for (const auto& [x, y] : points) labels.block({x - 4, y - 4, x + 4, y + 4});
   std::vector<Box> boxes;
+  boxes.reserve(points.size());
   for (const auto& [x, y] : points) boxes.push_back(labels.place(x, y, 4, 60, 14));
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     EXPECT_GE(boxes[i].left, 0);

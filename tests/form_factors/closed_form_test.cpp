@@ -13,8 +13,6 @@
 namespace radiosity::testing {
 namespace {
 
-const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ();
-
 double factor(HandMadeScene& scene, double tolerance) {
   return compute(scene.mesh(), raw(tolerance))(0, 1);
 }

@@ -9,6 +9,8 @@
 
 namespace radiosity::testing {
 
+inline const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ();
+
 /// Scenes put together face by face, each face a group of its own.
 class HandMadeScene {
  public:

@@ -10,8 +10,6 @@
 namespace radiosity::testing {
 namespace {
 
-const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ();
-
 Scene moved(Scene scene, double scale, double offset) {
   for (Vector3& vertex : scene.vertices) vertex = vertex * scale + Vector3::Constant(offset);
   return scene;

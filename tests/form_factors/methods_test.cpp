@@ -16,8 +16,6 @@
 namespace radiosity::testing {
 namespace {
 
-const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY();
-
 std::shared_ptr<const PatchMesh> room(Index patches) {
   return std::make_shared<const PatchMesh>(
       make_patches(built_in_scene("cornell-box-closed"), {.patches = patches}));

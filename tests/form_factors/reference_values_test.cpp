@@ -13,8 +13,6 @@
 namespace radiosity::testing {
 namespace {
 
-const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ();
-
 std::map<std::string, double> reference_values() {
   std::map<std::string, double> values;
   std::ifstream in(RADIOSITY_SOURCE_DIR "/../shared/reference/view-factors.csv");

@@ -12,8 +12,6 @@
 namespace radiosity::testing {
 namespace {
 
-const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ();
-
 struct Screen {
   const char* what;
   Vector3 corner, u, v;

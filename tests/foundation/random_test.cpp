@@ -37,7 +37,7 @@ TEST(RandomStream, FillsTheUnitIntervalEvenly) {
     ++counts[static_cast<std::size_t>(value * 10)];
   }
   // Standard deviation of a count: sqrt(100000 x 0.1 x 0.9) = 95.
-  for (const int count : counts) EXPECT_NEAR(count, draws / 10, 5 * 95);
+  for (const int count : counts) EXPECT_NEAR(count, draws / 10.0, 5 * 95);
 }
 
 TEST(RandomStream, BelowReachesEveryNumberAndNoOther) {

@@ -241,9 +241,8 @@ TEST(ToneMapping, IsWhatItSays) {
   EXPECT_NEAR(srgb_from_linear(0.0031308), 0.04045, 1e-5);
 
   Picture picture{10, 10, std::vector<float>(300, 0.F)};
-  for (int k = 0; k < 40; ++k)  // 40 lit pixels of radiance 1 to 40; black ones do not count
-    for (int c = 0; c < 3; ++c)
-      picture.pixels[static_cast<std::size_t>(3 * k + c)] = static_cast<float>(k + 1);
+  for (std::size_t k = 0; k < 40; ++k)  // 40 lit pixels of radiance 1 to 40; black ones do not count
+    for (std::size_t c = 0; c < 3; ++c) picture.pixels[3 * k + c] = static_cast<float>(k + 1);
   EXPECT_NEAR(exposure_of(picture), exposure_target / 38, 1e-6);
   EXPECT_EQ(exposure_of(Picture{1, 1, {0, 0, 0}}), 1);
 

@@ -22,6 +22,7 @@ Scene floor_and_block(bool with_bottom, bool floor_up = true) {
   const int block = builder.group("block");
   const std::vector<Vector3> bottom = {{1, 0, 1}, {1, 0, 2}, {2, 0, 2}, {2, 0, 1}};
   std::vector<Vector3> top;
+  top.reserve(bottom.size());
   for (const Vector3& corner : bottom) top.push_back(corner + Vector3::UnitY());
   builder.face(top, grey, block);
   for (std::size_t k = 0; k < 4; ++k)

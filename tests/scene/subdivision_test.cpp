@@ -32,8 +32,9 @@ TEST(Subdivision, CutsARectangleIntoRowsOfRectangles) {
   const PatchMesh mesh = make_patches(single({{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}}), {.edge = 0.5});
   ASSERT_EQ(mesh.patch_count(), 6 * 4);
   for (Index i = 0; i < 24; ++i) {
+    const Index row = i / 6, column = i % 6;
     EXPECT_TRUE(mesh.centroid.col(i).isApprox(
-        Vector3(0.25 + 0.5 * static_cast<double>(i % 6), 0.25 + 0.5 * static_cast<double>(i / 6), 0)));
+        Vector3(0.25 + 0.5 * static_cast<double>(column), 0.25 + 0.5 * static_cast<double>(row), 0)));
     EXPECT_NEAR(mesh.area[i], 0.25, 1e-15);
   }
 }

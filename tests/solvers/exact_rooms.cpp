@@ -1,6 +1,7 @@
 #include "exact_rooms.hpp"
 
 #include "foundation/random.hpp"
+#include "solvers/solver_registry.hpp"
 
 #include <cmath>
 
@@ -107,6 +108,13 @@ void RoomTransport::apply_impl(double alpha, const ConstFieldRef& X, double beta
     else
       Y.col(j) = alpha * image + beta * Y.col(j);
   }
+}
+
+std::vector<std::string> all_solvers() {
+  std::vector<std::string> specs{"gmres:restart=5"};
+  const SolverRegistry solvers = cpu_solvers();
+  for (const SolverEntry& entry : solvers.entries()) specs.push_back(entry.name);
+  return specs;
 }
 
 }  // namespace radiosity::testing

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace radiosity::testing {
 
@@ -67,5 +68,8 @@ class RoomTransport final : public LinearOperator {
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
   std::vector<Eigen::MatrixXd> matrices_;
 };
+
+/// Specs of every registered solver at its defaults, and of gmres with short cycles.
+std::vector<std::string> all_solvers();
 
 }  // namespace radiosity::testing
