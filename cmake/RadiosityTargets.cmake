@@ -33,13 +33,21 @@ function(radiosity_library name)
           FILES_MATCHING PATTERN "*.hpp")
 endfunction()
 
-# radiosity_test(NAME targets...): every *.cpp of the current folder in one GoogleTest program.
+# radiosity_test(NAME targets... [SLOW tests...]): every *.cpp of the current folder in one GoogleTest program. The tests named
+# after SLOW (GoogleTest's patterns) get the label "slow" instead of NAME: sanitizer runs leave them out.
 function(radiosity_test name)
+  cmake_parse_arguments(arg "" "" "SLOW" ${ARGN})
+  list(JOIN arg_SLOW ":" slow)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   set(target radiosity_${name}_tests)
   add_executable(${target} ${sources})
-  target_link_libraries(${target} PRIVATE ${ARGN} GTest::gtest_main radiosity_options)
+  target_link_libraries(${target} PRIVATE ${arg_UNPARSED_ARGUMENTS} GTest::gtest_main radiosity_options)
   set_target_properties(${target} PROPERTIES RADIOSITY_IS_TEST ON)
   target_compile_definitions(${target} PRIVATE RADIOSITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${name} TIMEOUT 600)
+  gtest_discover_tests(${target} TEST_PREFIX "${name}." TEST_FILTER "-${slow}" DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS ${name} TIMEOUT 600)
+  if(arg_SLOW)
+    gtest_discover_tests(${target} TEST_PREFIX "${name}." TEST_FILTER "${slow}" TEST_LIST ${target}_SLOW DISCOVERY_TIMEOUT 60
+                         PROPERTIES LABELS slow TIMEOUT 600)
+  endif()
 endfunction()
