@@ -14,9 +14,11 @@ struct FormFactorBenchmark {
   FormFactorQuality quality;
   double microseconds_per_factor = 0;  ///< CPU microseconds a directed form factor (n^2 of them)
   double assembly_rate =
-      0;                   ///< rays / CPU second of the whole assembly: quadrature, proofs, sampling, tracing
-  double tracer_rate = 0;  ///< rays / CPU second of rtcOccluded16 alone on a sample of the same packets
-  double load = 0;         ///< of the machine, one-minute average at the end
+      0;  ///< rays / CPU second of the whole assembly: quadrature, proofs, sampling, tracing
+  double tracer_rate =
+      0;  ///< rays / CPU second of rtcOccluded16 alone on a sample of the same packets, median
+  double fastest_tracer_rate = 0;  ///< of its ten replays
+  double load = 0;                 ///< of the machine, one-minute average at the end
 };
 
 /// Assembles without closure and replays up to four million of the same rays, spread over the scene's pairs.

@@ -59,7 +59,8 @@ std::vector<ConvexPolygon> coarse_faces(const PatchMesh& mesh, const PatchGeomet
 
 // Face f is the triangles 2 f and 2 f + 1, degenerate where it needs fewer: so a hit names its face.
 Occluders::Occluders(const std::vector<ConvexPolygon>& faces) : tracer_(std::make_unique<Tracer>()) {
-  tracer_->device = rtcNewDevice("threads=1");
+  // A number of threads given here would hold for the whole process as long as the device lives.
+  tracer_->device = rtcNewDevice(nullptr);
   if (!tracer_->device)
     fail("the ray tracer (Embree) did not start: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
   tracer_->scene = rtcNewScene(tracer_->device);
@@ -125,7 +126,7 @@ void Occluders::trace(RayPacket& packet) const {
   for (int k = 0; k < RayPacket::size; ++k) packet.blocked[k] = ray.tfar[k] < 0 ? 1 : 0;
 }
 
-double Occluders::tracing_seconds(const std::vector<RayPacket>& packets) const {
+double Occluders::tracing_seconds(std::span<const RayPacket> packets) const {
   constexpr std::size_t batch = 512;  // stays in the cache
   std::vector<RTCRay16> rays(std::min(batch, packets.size()));
   double seconds = 0;

@@ -6,6 +6,7 @@
 #include "form_factors/shaft.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace radiosity {
@@ -40,7 +41,7 @@ class Occluders {
 
   /// CPU seconds of one thread for rtcOccluded16 alone on packets prepared beforehand: the least that tracing
   /// them can cost.
-  double tracing_seconds(const std::vector<RayPacket>& packets) const;
+  double tracing_seconds(std::span<const RayPacket> packets) const;
 
  private:
   struct Tracer;

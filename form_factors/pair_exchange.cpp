@@ -116,7 +116,7 @@ void PairExchange::decide(int i, const PatchCluster& cluster, std::size_t blocke
       }
       untried = false;
     }
-    if (!open[l]) continue;
+    if (!open[l] || shafts[l] == Shaft::unknown) continue;  // another proof tells nothing of what needs rays
     Eigen::Vector3d found = direction;
     if (separate(blocker, own, geometry_.polygon(cluster.begin + l).corners(), found)) {
       direction = found;

@@ -27,7 +27,7 @@ double standard_variance(const std::array<Tally, kReplicates>& tallies, double f
   }
   // Four replicates can agree by chance: never below what a Sobol sequence does to a plain binomial variance.
   const double binomial = fraction * (1 - fraction) / rays;
-  return std::max(spread, 0.25 * binomial * std::pow(rays / 16, -0.25));
+  return std::max(spread, 0.25 * binomial / std::sqrt(std::sqrt(rays / 16)));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class VisibilitySampling {
   /// `record`, if not null, receives a copy of every packet (for measuring the ray tracer alone).
   VisibleFraction operator()(int i, int j, double wanted, std::vector<RayPacket>* record = nullptr) const;
 
-  static constexpr std::uint64_t least_rays = 192;
+  static constexpr std::uint64_t least_rays = 256;
   static constexpr std::uint64_t most_rays = std::uint64_t{1} << 20U;
 
  private:

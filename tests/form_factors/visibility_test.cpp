@@ -1,6 +1,7 @@
 // Blocked pairs: exact overlaps, proofs, doors, and what a wrong occlusion test would do.
 #include "form_factors/pair_exchange.hpp"
 #include "form_factors/shaft.hpp"
+#include "foundation/parallel.hpp"
 #include "foundation/random.hpp"
 #include "scene/built_in.hpp"
 #include "tests/form_factors/hand_made_scenes.hpp"
@@ -155,6 +156,15 @@ TEST(Visibility, ProofsAboutShaftsAreNeverWrong) {
   }
   EXPECT_GT(missed, 300);
   EXPECT_GT(blocked, 30);
+}
+
+TEST(Visibility, TheRayTracerLeavesTheNumberOfThreadsAlone) {
+  const int before = ThreadLimit::current();
+  HandMadeScene scene;
+  scene.box({0, 0, 0}, kX, kY, kZ, true);
+  const auto mesh = scene.mesh();
+  const PairExchange exchange(*mesh, 1e-4, 1);
+  EXPECT_EQ(ThreadLimit::current(), before);
 }
 
 }  // namespace
