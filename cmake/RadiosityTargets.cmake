@@ -43,6 +43,11 @@ function(radiosity_test name)
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE ${arg_UNPARSED_ARGUMENTS} GTest::gtest_main radiosity_options)
   set_target_properties(${target} PROPERTIES RADIOSITY_IS_TEST ON)
+  if(RADIOSITY_SANITIZE)  # a test takes longer to compile than to run
+    target_compile_options(${target} PRIVATE -O0)
+  elseif(CMAKE_BUILD_TYPE STREQUAL Release)
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
   target_compile_definitions(${target} PRIVATE RADIOSITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(${target} TEST_PREFIX "${name}." TEST_FILTER "-${slow}" DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS ${name} TIMEOUT 600)
