@@ -1,8 +1,8 @@
 #pragma once
 
 #include "form_factors/form_factors.hpp"
+#include "foundation/spec.hpp"
 #include "operators/linear_operator.hpp"
-#include "operators/spec.hpp"
 
 #include <functional>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "operators/spec.hpp"
+#include "foundation/spec.hpp"
 #include "solvers/solver.hpp"
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "operators/spec.hpp"
+#include "foundation/spec.hpp"
 
 #include "foundation/error.hpp"
 

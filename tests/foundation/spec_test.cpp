@@ -1,5 +1,5 @@
 #include "foundation/error.hpp"
-#include "operators/spec.hpp"
+#include "foundation/spec.hpp"
 
 #include <gtest/gtest.h>
 
