@@ -30,8 +30,10 @@ Solution solve_scene(const FormFactors& form_factors, const Field& emission, con
   SolverOptions options;
   options.tolerance = request.tolerance;
   const Stopwatch solving;
-  const std::unique_ptr<Solver> solver =
-      program.solvers.make(request.solver_spec, {*transport, form_factors.mesh->area.cwiseSqrt(), options});
+  const std::unique_ptr<Solver> solver = program.solvers.make(
+      request.solver_spec,
+      {*transport, form_factors.mesh->area.cwiseSqrt(), options,
+       [&](const std::string& spec) { return program.operators.make(spec, form_factors); }});
   solver->start(emission);
   while (!solver->converged()) {
     solver->step();

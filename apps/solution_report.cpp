@@ -39,6 +39,17 @@ void print_reference(const ReferenceComparison& reference) {
                group.standard_error);
 }
 
+void print_certificate(const CertificateSummary& certificate) {
+  if (!certificate.bound) {
+    fmt::print("certified  nothing: the system may be singular, or the answer is too far off\n");
+    return;
+  }
+  const std::string odds =
+      certificate.confidence < 1 ? fmt::format(", with probability {:.6g}", certificate.confidence) : "";
+  fmt::print("certified  B is right to {:.2g} of its norm for this F ({}, {} vectors, {:.3g} products{})\n",
+             *certificate.bound, certificate.kind, certificate.vectors, certificate.products, odds);
+}
+
 Json reference_json(const ReferenceComparison& reference) {
   Json groups = Json::array();
   for (const GroupDifference& group : reference.groups)
@@ -68,6 +79,7 @@ void print_solution(const FormFactors& form_factors, const SolutionReport& repor
              byte_text(static_cast<double>(solution.bytes)), solution.build_seconds);
   fmt::print("solver     {}, {} products, residual {:.2g}, {:.3g} s\n", solution.solver_name,
              solution.products, solution.residual, solution.solve_seconds);
+  if (report.certificate) print_certificate(*report.certificate);
   fmt::print("\n{:<24} {:>12}   {}\n", "group", "area", "mean radiosity, W/m^2");
   for (const GroupSummary& group : report.groups)
     fmt::print("{:<24} {:>12.6g}   {}\n", group.name, group.area, channel_text(group.mean));
@@ -93,6 +105,7 @@ void write_solution_json(const std::filesystem::path& file, const FormFactors& f
                     {"solve_seconds", solution.solve_seconds},
                     {"iterations", solution.products},
                     {"residual", solution.residual},
+                    {"certificate", certificate_json(report.certificate)},
                     {"groups", groups},
                     {"energy", energy},
                     {"reference", report.reference ? reference_json(*report.reference) : Json(nullptr)}});

@@ -3,6 +3,7 @@
 #include "apps/energy_balance.hpp"
 #include "apps/group_summary.hpp"
 #include "apps/solution.hpp"
+#include "experiments/certification.hpp"
 #include "render/reference_comparison.hpp"
 
 #include <filesystem>
@@ -15,7 +16,9 @@ namespace radiosity {
 struct SolutionReport {
   Solution solution;
   EnergyBalance energy;
-  std::vector<GroupSummary> groups;              ///< mean radiosity of each group
+  std::optional<CertificateSummary>
+      certificate;                   ///< empty where F has no symmetric kernel, or with --no-certificate
+  std::vector<GroupSummary> groups;  ///< mean radiosity of each group
   std::optional<ReferenceComparison> reference;  ///< with --reference
 };
 

@@ -33,6 +33,7 @@ struct SolveOptions {
   SolutionRequest request;
   RunOptions run;
   std::string lights;
+  bool no_certificate = false;
   bool reference = false;
   PathTracingOptions paths;
   PictureOptions picture;
@@ -73,6 +74,11 @@ void run_solve(SolveOptions options, const Program& program) {
   SolutionReport report;
   report.solution = solve_scene(form_factors, emission, options.request, program, monitor);
   report.energy = energy_balance(form_factors, emission, report.solution.radiosity);
+  if (!options.no_certificate) {
+    monitor.checkpoint("certificate", 0);
+    if (const auto certifier = Certifier::make(form_factors, options.run.seed))
+      report.certificate = certifier->certify(emission, report.solution.radiosity);
+  }
   report.groups = summarize_groups(*mesh, report.solution.radiosity);
   if (options.reference) {
     PatchMesh lit = *mesh;
@@ -127,6 +133,8 @@ void add_solve_command(CLI::App& app, const Program& program) {
       ->option_text("PIXELS");
   command->add_flag("--interpolate", options->picture.interpolate,
                     "shade the picture smoothly in place of flat patches");
+  command->add_flag("--no-certificate", options->no_certificate,
+                    "do not bound the error of B, which takes some products with the true kernel");
   command->add_flag("--reference", options->reference,
                     "compare with path tracing, which shares no transport code");
   command->add_option("--reference-paths", options->paths.paths, "paths from each patch; default 1024")

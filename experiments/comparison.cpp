@@ -21,10 +21,12 @@ constexpr int power_steps = 40;
 /// What all operators of a comparison share.
 struct Task {
   const FormFactors& form_factors;
+  const OperatorRegistry& operators;
   const SolverRegistry& solvers;
   const ComparisonOptions& options;
   const LightSet& lights;
   const std::optional<Field>& reference;
+  const Certifier* certifier;  ///< null where F has no symmetric kernel
   Monitor& monitor;
 
   const PatchMesh& mesh() const { return *form_factors.mesh; }
@@ -76,7 +78,9 @@ Timing time_apply(const LinearOperator& transport, const Field& fields) {
 Field solve_lights(const Task& task, const LinearOperator& transport, ComparisonResult& result) {
   const Index channels = task.mesh().channels();
   const auto solver = task.solvers.make(
-      task.options.solver, {transport, task.mesh().area.cwiseSqrt(), task.options.solver_options});
+      task.options.solver,
+      {transport, task.mesh().area.cwiseSqrt(), task.options.solver_options,
+       [&](const std::string& spec) { return task.operators.make(spec, task.form_factors); }});
   result.solver = solver->describe();
   Field radiosity(task.lights.emission.rows(), task.lights.emission.cols());
   std::vector<double> samples;
@@ -111,17 +115,20 @@ void measure_errors(const Task& task, const LinearOperator& transport, const Fie
             errors.indirect_mean, errors.indirect_max);
 }
 
-ComparisonResult examine(const Task& task, const OperatorRegistry& operators, const std::string& spec) {
+ComparisonResult examine(const Task& task, const std::string& spec) {
   ComparisonResult result;
   result.spec = spec;
   task.monitor.checkpoint("building " + spec, 0);
   const Stopwatch build;
-  const auto transport = operators.make(spec, task.form_factors);
+  const auto transport = task.operators.make(spec, task.form_factors);
   result.build_seconds = build.seconds();
   result.bytes = transport->bytes().total();
   result.apply = time_apply(*transport, task.lights.emission.leftCols(task.mesh().channels()));
   const Field radiosity = solve_lights(task, *transport, result);
   measure_errors(task, *transport, radiosity, result.errors);
+  if (task.certifier != nullptr)
+    result.certificate = task.certifier->certify(task.lights.emission, radiosity, task.reference);
+  result.remark = transport->remark();
   if (const auto range = row_sum_range(*transport, task.form_factors)) {
     result.row_sum_min = range->first;
     result.row_sum_max = range->second;
@@ -149,9 +156,12 @@ Comparison compare(const FormFactors& form_factors, const OperatorRegistry& oper
   comparison.machine = options.machine ? *options.machine : measure_machine();
   monitor.checkpoint("reference solution", 0);
   const std::optional<Field> reference = reference_solution(form_factors, comparison.lights.emission);
-  const Task task{form_factors, solvers, options, comparison.lights, reference, monitor};
+  monitor.checkpoint("certificate", 0);
+  const auto certifier = Certifier::make(form_factors, options.seed);
+  const Task task{form_factors,      operators, solvers,         options,
+                  comparison.lights, reference, certifier.get(), monitor};
   for (const std::string& spec : options.operators)
-    with_spec(spec, [&] { comparison.results.push_back(examine(task, operators, spec)); });
+    with_spec(spec, [&] { comparison.results.push_back(examine(task, spec)); });
   return comparison;
 }
 

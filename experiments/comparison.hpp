@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiments/certification.hpp"
 #include "experiments/lights.hpp"
 #include "experiments/machine.hpp"
 #include "form_factors/form_factors.hpp"
@@ -58,8 +59,10 @@ struct ComparisonResult {
   ComparisonErrors errors;
   std::optional<double> row_sum_min;  ///< of its F, over live patches
   std::optional<double> row_sum_max;
-  std::optional<double> spectral_radius;  ///< of T by power iteration
-  int iterations = 0;                     ///< largest number of products for any light; 0 for a direct answer
+  std::optional<double> spectral_radius;          ///< of T by power iteration
+  std::optional<CertificateSummary> certificate;  ///< empty where F has no symmetric kernel
+  std::string remark;                             ///< of the operator; empty if it has none
+  int iterations = 0;  ///< largest number of products for any light; 0 for a direct answer
 };
 
 struct Comparison {

@@ -35,7 +35,9 @@ Json result_json(const ComparisonResult& result) {
           {"row_sum_min", or_null(result.row_sum_min)},
           {"row_sum_max", or_null(result.row_sum_max)},
           {"spectral_radius", or_null(result.spectral_radius)},
-          {"iterations", result.iterations}};
+          {"iterations", result.iterations},
+          {"certificate", certificate_json(result.certificate)},
+          {"remark", result.remark.empty() ? Json() : Json(result.remark)}};
 }
 
 }  // namespace

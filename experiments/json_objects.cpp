@@ -18,6 +18,14 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json();
 }
 
+Json certificate_json(const std::optional<CertificateSummary>& certificate) {
+  if (!certificate) return {};
+  return {{"bound", or_null(certificate->bound)},        {"kind", certificate->kind},
+          {"confidence", certificate->confidence},       {"vectors", certificate->vectors},
+          {"products", certificate->products},           {"ratio_min", or_null(certificate->ratio_min)},
+          {"ratio_max", or_null(certificate->ratio_max)}};
+}
+
 Json scene_json(const PatchMesh& mesh) {
   return {{"name", mesh.scene->name},       {"triangles", triangle_count(*mesh.scene)},
           {"patches", mesh.patch_count()},  {"channels", mesh.channels()},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiments/certification.hpp"
 #include "experiments/machine.hpp"
 #include "form_factors/form_factors.hpp"
 #include "scene/patch_mesh.hpp"
@@ -29,6 +30,9 @@ Json machine_json(const Machine& machine);
 
 /// The "form_factors" object of every JSON file.
 Json form_factors_json(const FormFactorQuality& quality);
+
+/// The "certificate" object of a result: bound, kind, confidence, vectors, products, ratio_min, ratio_max.
+Json certificate_json(const std::optional<CertificateSummary>& certificate);
 
 /// A list of numbers.
 Json numbers_json(const Eigen::VectorXd& values);

@@ -35,7 +35,10 @@ Spec Spec::parse(const std::string& text) {
     Entry entry;
     entry.key = part.substr(0, equals);
     entry.has_value = equals != std::string::npos;
-    if (entry.has_value) entry.value = part.substr(equals + 1);
+    if (entry.has_value) {
+      entry.value = part.substr(equals + 1);
+      entry.value_begin = begin + equals + 1;
+    }
     if (entry.key.empty()) fail<UsageError>("'{}': a key is empty; write name:key=value,flag", text);
     if (entry.has_value && entry.value.empty())
       fail<UsageError>("'{}': key '{}' has no value", text, entry.key);
@@ -81,6 +84,15 @@ std::string Spec::text(const std::string& key, const std::string& fallback) {
   if (entry == nullptr) return fallback;
   if (!entry->has_value) fail<UsageError>("'{}': key '{}' needs a value: {}=...", text_, key, key);
   return entry->value;
+}
+
+std::string Spec::rest(const std::string& key) {
+  const Entry* entry = take(key);
+  if (entry == nullptr) return {};
+  if (!entry->has_value) fail<UsageError>("'{}': key '{}' needs a value: {}=...", text_, key, key);
+  const std::size_t begin = entry->value_begin;
+  for (Entry& other : entries_) other.taken = other.taken || &other > entry;
+  return text_.substr(begin);
 }
 
 std::string Spec::choice(const std::string& key, const std::string& fallback,

@@ -23,6 +23,10 @@ class Spec {
   std::int64_t integer(const std::string& key, std::int64_t fallback, std::int64_t low, std::int64_t high);
   std::string text(const std::string& key, const std::string& fallback);
 
+  /// The value of `key` with everything that follows it, commas included: a spec inside a spec, as in
+  /// "cg:preconditioner=quantized:bits=4,exact=0.01". Empty if the key is not there.
+  std::string rest(const std::string& key);
+
   /// One of `choices`, given as key=choice or as a bare flag; throws UsageError that lists them.
   std::string choice(const std::string& key, const std::string& fallback,
                      const std::vector<std::string>& choices);
@@ -37,6 +41,7 @@ class Spec {
   struct Entry {
     std::string key;
     std::string value;
+    std::size_t value_begin = 0;  ///< in text_
     bool has_value = false;
     bool taken = false;
   };

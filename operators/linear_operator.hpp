@@ -66,6 +66,9 @@ class LinearOperator {
 
   virtual Certificate certificate() const { return {}; }
 
+  /// What who reads its results should know ("no symmetric scaling exists; ..."); empty if there is nothing.
+  virtual std::string remark() const { return {}; }
+
   Usage usage() const { return {products_.load(), 1e-9 * static_cast<double>(nanoseconds_.load())}; }
 
  protected:

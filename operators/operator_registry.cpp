@@ -1,6 +1,7 @@
 #include "operators/operator_registry.hpp"
 
 #include "foundation/error.hpp"
+#include "operators/closed_operator.hpp"
 
 #include <fmt/ranges.h>
 
@@ -42,9 +43,10 @@ std::unique_ptr<LinearOperator> OperatorRegistry::make(const std::string& spec_t
     names.push_back(entry.name);
     if (entry.name != spec.name()) continue;
     check_form_factors(form_factors);
+    const ClosureChoice closure = ClosureChoice::take(spec, entry.closure);
     auto made = entry.make(spec, form_factors);
     spec.finish();
-    return made;
+    return close_operator(std::move(made), closure, form_factors);
   }
   fail<UsageError>("there is no operator '{}' (in '{}'); known are {}", spec.name(), spec_text,
                    fmt::join(names, ", "));

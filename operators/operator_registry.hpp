@@ -16,6 +16,7 @@ struct OperatorEntry {
   std::string summary;   ///< one line for --help
   std::string defaults;  ///< keys with their defaults, as a spec: "dense:f64"
   std::function<std::unique_ptr<LinearOperator>(Spec&, const FormFactors&)> make;
+  std::string closure = "none";  ///< unless the spec names another (operators/closed_operator.hpp)
 };
 
 /// The operators a program knows, as a value: assembled from lists (cpu_operators(), a user's own) and passed
@@ -30,7 +31,8 @@ class OperatorRegistry {
 
   const std::vector<OperatorEntry>& entries() const { return entries_; }
 
-  /// Parses and builds. Throws UsageError for unknown names and keys, listing the known ones.
+  /// Parses and builds. Every spec may name a closure, as in "dense:f16,closure=symmetric". Throws UsageError
+  /// for unknown names and keys, listing the known ones.
   std::unique_ptr<LinearOperator> make(const std::string& spec, const FormFactors& form_factors) const;
 
  private:

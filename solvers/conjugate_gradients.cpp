@@ -1,26 +1,14 @@
 #include "solvers/conjugate_gradients.hpp"
 
-#include "foundation/error.hpp"
+#include "solvers/symmetric_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace radiosity {
 
-namespace {
-
-const KernelOperator& require_kernel(const LinearOperator& transport) {
-  const auto* kernel = dynamic_cast<const KernelOperator*>(&transport);
-  if (kernel == nullptr || !transport.symmetric())
-    fail<UsageError>("cg needs a symmetric kernel, which the operator {} is not: use gmres.",
-                     transport.describe());
-  return *kernel;
-}
-
-}  // namespace
-
 ConjugateGradients::ConjugateGradients(const SolverProblem& problem)
-    : SteppedSolver("cg", problem), kernel_(require_kernel(problem.transport)) {}
+    : SteppedSolver("cg", problem), kernel_(require_symmetric_kernel("cg", problem.transport)) {}
 
 void ConjugateGradients::begin() {
   root_reflectance_ = kernel_.reflectance().cwiseSqrt();

@@ -2,6 +2,7 @@
 
 #include "foundation/error.hpp"
 #include "solvers/conjugate_gradients.hpp"
+#include "solvers/corrected_conjugate_gradients.hpp"
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/gmres.hpp"
 #include "solvers/lu.hpp"
@@ -21,6 +22,12 @@ std::unique_ptr<Solver> make_plain(Spec&, const SolverProblem& problem) {
 
 std::unique_ptr<Solver> make_gmres(Spec& spec, const SolverProblem& problem) {
   return std::make_unique<Gmres>(problem, static_cast<int>(spec.integer("restart", 30, 1, 10000)));
+}
+
+std::unique_ptr<Solver> make_conjugate_gradients(Spec& spec, const SolverProblem& problem) {
+  const std::string preconditioner = spec.rest("preconditioner");
+  if (preconditioner.empty()) return std::make_unique<ConjugateGradients>(problem);
+  return std::make_unique<CorrectedConjugateGradients>(problem, preconditioner);
 }
 
 }  // namespace
@@ -52,8 +59,11 @@ std::unique_ptr<Solver> SolverRegistry::make(const std::string& text, const Solv
 
 SolverRegistry cpu_solvers() {
   return SolverRegistry({
-      {"cg", "conjugate gradients on the symmetric form; the default for symmetric operators", "cg",
-       make_plain<ConjugateGradients>},
+      {"cg",
+       "conjugate gradients on the symmetric form; the default for symmetric operators; "
+       "preconditioner=OPERATOR, "
+       "the last key, solves with that operator first and corrects",
+       "cg", make_conjugate_gradients},
       {"gmres", "restarted GMRES; the default for other operators", "gmres:restart=30", make_gmres},
       {"neumann", "one bounce an iteration, where the spectral radius is known to be below 1", "neumann",
        make_plain<Neumann>},

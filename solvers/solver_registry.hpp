@@ -15,6 +15,9 @@ struct SolverProblem {
   const LinearOperator& transport;
   Eigen::VectorXd root_area;
   SolverOptions options;
+  /// Builds another operator of the same form factors from a spec, for solvers that use one beside
+  /// `transport`; empty where there is no such choice.
+  std::function<std::unique_ptr<LinearOperator>(const std::string&)> make_operator = {};
 };
 
 struct SolverEntry {

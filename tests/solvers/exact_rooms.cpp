@@ -24,6 +24,16 @@ Eigen::MatrixXd random_visibility(Index n, RandomStream& random) {
   return weights;
 }
 
+/// Symmetric Sinkhorn; K A^{1/2} = A^{1/2} says that rows of F sum to 1.
+void close_rows(Room& room) {
+  const Eigen::VectorXd root = room.root_area();
+  for (int sweep = 0; sweep < 200; ++sweep) {
+    const Eigen::VectorXd scale = root.cwiseQuotient(room.kernel * root).cwiseSqrt();
+    room.kernel = (scale.asDiagonal() * room.kernel * scale.asDiagonal()).eval();
+    room.kernel = (0.5 * (room.kernel + room.kernel.transpose())).eval();
+  }
+}
+
 }  // namespace
 
 Eigen::MatrixXd Room::transport(Index channel) const {
@@ -46,14 +56,21 @@ Room closed_room(Index n, std::uint64_t seed, double reflectance) {
   room.area = random_areas(n, random);
   room.reflectance = Eigen::MatrixXd::Constant(n, 1, reflectance);
   room.kernel = random_visibility(n, random);
-  const Eigen::VectorXd root = room.root_area();
-  for (int sweep = 0; sweep < 200;
-       ++sweep) {  // symmetric Sinkhorn; K A^{1/2} = A^{1/2} says that rows of F sum to 1
-    const Eigen::VectorXd scale = root.cwiseQuotient(room.kernel * root).cwiseSqrt();
-    room.kernel = (scale.asDiagonal() * room.kernel * scale.asDiagonal()).eval();
-    room.kernel = (0.5 * (room.kernel + room.kernel.transpose())).eval();
-  }
+  close_rows(room);
   return room;
+}
+
+Room chained_rooms(int count, Index n, double door, std::uint64_t seed, double reflectance) {
+  RandomStream random(seed);
+  Room chain;
+  chain.area = random_areas(count * n, random);
+  chain.reflectance = Eigen::MatrixXd::Constant(count * n, 1, reflectance);
+  chain.kernel = random_visibility(count * n, random);
+  for (Index i = 0; i < count * n; ++i)
+    for (Index j = 0; j < count * n; ++j)
+      if (i / n != j / n) chain.kernel(i, j) *= std::abs(i / n - j / n) == 1 ? door : 0;
+  close_rows(chain);
+  return chain;
 }
 
 Room open_room(Index n, std::uint64_t seed, Index channels) {

@@ -32,6 +32,10 @@ Room sphere_cavity(Index n, std::uint64_t seed, double reflectance);
 /// rounding.
 Room closed_room(Index n, std::uint64_t seed, double reflectance);
 
+/// `count` closed rooms of n patches each in a row; each sends about the share `door` of its light to its
+/// neighbours.
+Room chained_rooms(int count, Index n, double door, std::uint64_t seed, double reflectance);
+
 /// Row sums of F between 0 and 1, random reflectances in [0, 0.95], a fifth of the patches black, two patches
 /// isolated.
 Room open_room(Index n, std::uint64_t seed, Index channels);

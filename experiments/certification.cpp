@@ -1,0 +1,63 @@
+#include "experiments/certification.hpp"
+
+#include "operators/operator_registry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radiosity {
+
+namespace {
+
+/// Below this the truth's own rounding is as large as the error.
+constexpr double smallest_known_error = 1e-10;
+
+void take_ratio(CertificateSummary& summary, double ratio) {
+  summary.ratio_min = std::min(summary.ratio_min.value_or(ratio), ratio);
+  summary.ratio_max = std::max(summary.ratio_max.value_or(ratio), ratio);
+}
+
+}  // namespace
+
+Certifier::Certifier(const FormFactors& form_factors, std::uint64_t seed)
+    : transport_(cpu_operators().make("dense", form_factors)) {
+  ErrorCertificateOptions options;
+  options.seed = seed;
+  certificate_ =
+      std::make_unique<ErrorCertificate>(dynamic_cast<const KernelOperator&>(*transport_), options);
+  setup_products_ = certificate_->products();
+}
+
+std::unique_ptr<Certifier> Certifier::make(const FormFactors& form_factors, std::uint64_t seed) {
+  if (!form_factors.symmetric()) return nullptr;
+  return std::unique_ptr<Certifier>(new Certifier(form_factors, seed));
+}
+
+CertificateSummary Certifier::certify(const Field& emission, const Field& radiosity,
+                                      const std::optional<Field>& truth) const {
+  CertificateSummary summary;
+  const double before = certificate_->products();
+  const ErrorBound bound = certificate_->bound(emission, radiosity);
+  summary.kind = certificate_->kind();
+  summary.confidence = certificate_->confidence();
+  summary.vectors = certificate_->vectors();
+  summary.products = setup_products_ + certificate_->products() - before;
+  const double largest = bound.relative.size() == 0 ? 0 : bound.relative.maxCoeff();
+  if (std::isfinite(largest)) summary.bound = largest;
+  if (!truth) return summary;
+  const Eigen::VectorXd root_area = transport_->size() == 0
+                                        ? Eigen::VectorXd()
+                                        : dynamic_cast<const KernelOperator&>(*transport_).root_area();
+  const Index channels = transport_->channels();
+  for (Index light = 0; light < bound.relative.size(); ++light) {
+    const auto own = truth->middleCols(light * channels, channels);
+    const double actual =
+        (root_area.asDiagonal() * (radiosity.middleCols(light * channels, channels) - own)).norm();
+    const double allowed = bound.absolute.segment(light * channels, channels).norm();
+    if (actual > smallest_known_error * (root_area.asDiagonal() * own).norm() && std::isfinite(allowed))
+      take_ratio(summary, allowed / actual);
+  }
+  return summary;
+}
+
+}  // namespace radiosity

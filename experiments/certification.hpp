@@ -1,0 +1,40 @@
+#pragma once
+
+#include "form_factors/form_factors.hpp"
+#include "solvers/error_certificate.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace radiosity {
+
+/// What a certificate says of a set of answers (key "certificate" of the JSON).
+struct CertificateSummary {
+  std::optional<double> bound;  ///< largest ||B - B~||_A / ||B||_A over the lights; empty: not bounded
+  std::string kind;             ///< proved or deflated
+  double confidence = 1;
+  Index vectors = 0;                ///< deflated, over all channels
+  double products = 0;              ///< with the true kernel, setup and one answer a light
+  std::optional<double> ratio_min;  ///< of bound / actual error over the lights, where the truth is known
+  std::optional<double> ratio_max;
+};
+
+/// Certifies answers against assembled form factors; null where these have no symmetric kernel.
+class Certifier {
+ public:
+  static std::unique_ptr<Certifier> make(const FormFactors& form_factors, std::uint64_t seed);
+
+  /// `truth`, if it is known, is an answer whose own error does not matter: it only serves the ratios.
+  CertificateSummary certify(const Field& emission, const Field& radiosity,
+                             const std::optional<Field>& truth = std::nullopt) const;
+
+ private:
+  Certifier(const FormFactors& form_factors, std::uint64_t seed);
+
+  std::unique_ptr<LinearOperator> transport_;
+  std::unique_ptr<ErrorCertificate> certificate_;
+  double setup_products_ = 0;
+};
+
+}  // namespace radiosity

@@ -1,0 +1,83 @@
+#include "factorizations/lapack.hpp"
+
+#include "foundation/error.hpp"
+
+#include <lapacke.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace radiosity {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+lapack_int as_lapack(Index size) {
+  return static_cast<lapack_int>(size);
+}
+
+void require_success(const char* routine, lapack_int info) {
+  if (info != 0) fail("LAPACK's {} did not converge (info {}): is the matrix finite?", routine, info);
+}
+
+}  // namespace
+
+SymmetricEigenpairs symmetric_eigenpairs(MatrixXd matrix) {
+  SymmetricEigenpairs result;
+  result.values.resize(matrix.rows());
+  if (matrix.rows() > 0)
+    require_success("dsyevd", LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'L', as_lapack(matrix.rows()),
+                                             matrix.data(), as_lapack(matrix.rows()), result.values.data()));
+  result.vectors = std::move(matrix);
+  return result;
+}
+
+SingularValues singular_value_decomposition(MatrixXd matrix) {
+  const Index rows = matrix.rows(), cols = matrix.cols(), rank = std::min(rows, cols);
+  SingularValues result;
+  result.U.resize(rows, rank);
+  result.values.resize(rank);
+  MatrixXd transposed(rank, cols);
+  if (rank > 0)
+    require_success("dgesdd",
+                    LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'S', as_lapack(rows), as_lapack(cols), matrix.data(),
+                                   as_lapack(rows), result.values.data(), result.U.data(), as_lapack(rows),
+                                   transposed.data(), as_lapack(rank)));
+  result.V = transposed.transpose();
+  return result;
+}
+
+PivotedQr pivoted_qr(MatrixXd matrix) {
+  const Index rows = matrix.rows(), cols = matrix.cols(), rank = std::min(rows, cols);
+  PivotedQr result;
+  result.diagonal.resize(rank);
+  result.pivots.resize(static_cast<std::size_t>(cols));
+  if (rank == 0) {
+    for (Index k = 0; k < cols; ++k) result.pivots[static_cast<std::size_t>(k)] = k;
+    result.Q.resize(rows, 0);
+    return result;
+  }
+  std::vector<lapack_int> pivots(static_cast<std::size_t>(cols), 0);
+  VectorXd scales(rank);
+  require_success("dgeqp3", LAPACKE_dgeqp3(LAPACK_COL_MAJOR, as_lapack(rows), as_lapack(cols), matrix.data(),
+                                           as_lapack(rows), pivots.data(), scales.data()));
+  for (Index k = 0; k < rank; ++k) result.diagonal[k] = std::abs(matrix(k, k));
+  std::transform(pivots.begin(), pivots.end(), result.pivots.begin(),
+                 [](lapack_int p) { return Index{p} - 1; });
+  require_success("dorgqr", LAPACKE_dorgqr(LAPACK_COL_MAJOR, as_lapack(rows), as_lapack(rank),
+                                           as_lapack(rank), matrix.data(), as_lapack(rows), scales.data()));
+  result.Q = matrix.leftCols(rank);
+  return result;
+}
+
+MatrixXd orthonormal_columns(const MatrixXd& X, double tolerance) {
+  const PivotedQr qr = pivoted_qr(X);
+  Index rank = 0;
+  while (rank < qr.diagonal.size() && qr.diagonal[rank] > tolerance * qr.diagonal[0]) ++rank;
+  return qr.Q.leftCols(rank);
+}
+
+}  // namespace radiosity

@@ -1,0 +1,286 @@
+#include "operators/closed_operator.hpp"
+
+#include "factorizations/symmetric_scaling.hpp"
+#include "foundation/error.hpp"
+#include "kernels/products.hpp"
+#include "operators/field_checks.hpp"
+#include "operators/kernel_operator.hpp"
+#include "operators/reflectance.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace radiosity {
+
+namespace {
+
+std::string closed_spec(const LinearOperator& approximation, const std::string& keys) {
+  const std::string spec = approximation.describe();
+  return spec + (spec.find(':') == std::string::npos ? ":" : ",") + keys;
+}
+
+Eigen::VectorXd kernel_row_sums(const KernelOperator& kernel) {
+  Field sums(kernel.size(), 1);
+  kernel.apply_kernel(kernel.root_area(), sums);
+  return sums.col(0).cwiseQuotient(kernel.root_area());
+}
+
+/// sum_j F~_ij of any operator T~ = R F~; 0 where no channel reflects.
+Eigen::VectorXd operator_row_sums(const LinearOperator& transport, const Eigen::MatrixXd& reflectance) {
+  Field sums(transport.size(), transport.channels());
+  transport.apply(Field::Ones(transport.size(), transport.channels()), sums);
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(transport.size());
+  for (Index i = 0; i < transport.size(); ++i) {
+    Index channel = 0;
+    const double rho = reflectance.row(i).maxCoeff(&channel);
+    if (rho > 0) rows[i] = sums(i, channel) / rho;
+  }
+  return rows;
+}
+
+/// D T~.
+class RowClosedOperator final : public LinearOperator {
+ public:
+  RowClosedOperator(std::unique_ptr<LinearOperator> approximation, const FormFactors& form_factors)
+      : approximation_(std::move(approximation)) {
+    const Eigen::MatrixXd& reflectance = form_factors.mesh->reflectance;
+    const Eigen::VectorXd target = form_factors.row_sums();
+    const Eigen::VectorXd reached = operator_row_sums(*approximation_, reflectance);
+    factors_ = Eigen::VectorXd::Ones(target.size());
+    for (Index i = 0; i < target.size(); ++i) {
+      if (target[i] <= 0 || reflectance.row(i).maxCoeff() <= 0) continue;
+      if (reached[i] > 0)
+        factors_[i] = target[i] / reached[i];
+      else
+        ++empty_rows_;
+    }
+  }
+
+  Index size() const override { return approximation_->size(); }
+  Index channels() const override { return approximation_->channels(); }
+  ByteCount bytes() const override {
+    ByteCount bytes = approximation_->bytes();
+    bytes.parts.emplace_back("closure", sizeof(double) * static_cast<std::size_t>(size()));
+    return bytes;
+  }
+  std::string describe() const override { return closed_spec(*approximation_, "closure=rows"); }
+  std::string remark() const override {
+    if (empty_rows_ == 0) return {};
+    return fmt::format("{} rows have no positive sum and cannot be closed by scaling", empty_rows_);
+  }
+
+ protected:
+  void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override {
+    Field product(X.rows(), X.cols());
+    approximation_->apply(X, product);
+    add_product((alpha * factors_).replicate(1, channels()), product, beta, Y);
+  }
+
+ private:
+  std::unique_ptr<LinearOperator> approximation_;
+  Eigen::VectorXd factors_;  // d, n
+  Index empty_rows_ = 0;
+};
+
+/// What closures that stay symmetric share.
+class ClosedKernelOperator : public KernelOperator {
+ public:
+  std::string describe() const final { return closed_spec(*approximation_, keys_); }
+
+ protected:
+  ClosedKernelOperator(std::unique_ptr<KernelOperator> approximation, std::string keys,
+                       const FormFactors& form_factors)
+      : KernelOperator(form_factors), approximation_(std::move(approximation)), keys_(std::move(keys)) {}
+
+  const KernelOperator& approximation() const { return *approximation_; }
+
+ private:
+  std::unique_ptr<KernelOperator> approximation_;
+  std::string keys_;
+};
+
+constexpr double product_rounding = 1e-6;  // of row sums, where products are done in float
+
+/// D K~ D.
+class ScaledKernelOperator final : public ClosedKernelOperator {
+ public:
+  ScaledKernelOperator(std::unique_ptr<KernelOperator> kernel, std::string keys,
+                       const FormFactors& form_factors)
+      : ClosedKernelOperator(std::move(kernel), std::move(keys), form_factors) {
+    const VectorProduct product = [&](const Eigen::VectorXd& x) {
+      Field y(size(), 1);
+      approximation().apply_kernel(x, y);
+      return Eigen::VectorXd(y.col(0));
+    };
+    scaling_ = scale_symmetric(product, root_area(), form_factors.row_sums(), product_rounding);
+  }
+
+  ByteCount bytes() const override {
+    ByteCount bytes = approximation().bytes();
+    bytes.parts.emplace_back("closure", sizeof(double) * static_cast<std::size_t>(size()));
+    return bytes;
+  }
+  std::string remark() const override { return scaling_.note; }
+
+ protected:
+  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override {
+    const Field scaled = scaling_.factors.asDiagonal() * X;
+    approximation().apply_kernel(scaled, Y);
+    Y = scaling_.factors.asDiagonal() * Y;
+  }
+
+ private:
+  SymmetricScaling scaling_;
+};
+
+/// K~ + X P' + P W' with X = (K - K~) P and W = X - P (P'X).
+class BlockClosedOperator final : public ClosedKernelOperator {
+ public:
+  BlockClosedOperator(std::unique_ptr<KernelOperator> kernel, std::string keys,
+                      const FormFactors& form_factors, Rooms rooms)
+      : ClosedKernelOperator(std::move(kernel), std::move(keys), form_factors), rooms_(std::move(rooms)) {
+    const Eigen::MatrixXd P = rooms_.indicators(root_area());
+    scale_ = Eigen::VectorXd::Ones(rooms_.count);
+    for (Index i = 0; i < size(); ++i) {
+      const int room = rooms_.of_patch[static_cast<std::size_t>(i)];
+      if (room >= 0) scale_[room] = P(i, room) / root_area()[i];
+    }
+    Field approximate(size(), rooms_.count);
+    defect_.resize(size(), rooms_.count);
+    if (rooms_.count == 0 || size() == 0) return;
+    multiply(*form_factors.kernel, P, defect_);
+    approximation().apply_kernel(P, approximate);
+    defect_ -= approximate;
+    coupling_ = P.transpose() * defect_;
+    coupling_ = 0.5 * (coupling_ + coupling_.transpose()).eval();
+  }
+
+  ByteCount bytes() const override {
+    ByteCount bytes = approximation().bytes();
+    const auto n = static_cast<std::size_t>(size()), m = static_cast<std::size_t>(rooms_.count);
+    bytes.parts.emplace_back("closure", sizeof(double) * (n * m + m * m + m) + sizeof(int) * n);
+    return bytes;
+  }
+
+ protected:
+  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override {
+    approximation().apply_kernel(X, Y);
+    if (rooms_.count == 0) return;
+    const Eigen::MatrixXd means = room_sums(X);                                 // P' X
+    const Eigen::MatrixXd gains = defect_.transpose() * X - coupling_ * means;  // W' X
+    Y.noalias() += defect_ * means;
+    for (Index j = 0; j < Y.cols(); ++j) {
+      for (Index i = 0; i < size(); ++i) {
+        const int room = rooms_.of_patch[static_cast<std::size_t>(i)];
+        if (room >= 0) Y(i, j) += scale_[room] * root_area()[i] * gains(room, j);
+      }
+    }
+  }
+
+ private:
+  Eigen::MatrixXd room_sums(const ConstFieldRef& X) const {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rooms_.count, X.cols());
+    for (Index j = 0; j < X.cols(); ++j) {
+      for (Index i = 0; i < size(); ++i) {
+        const int room = rooms_.of_patch[static_cast<std::size_t>(i)];
+        if (room >= 0) sums(room, j) += root_area()[i] * X(i, j);
+      }
+    }
+    return scale_.asDiagonal() * sums;
+  }
+
+  Rooms rooms_;
+  Eigen::VectorXd scale_;     // P_ir = scale_r A_i^{1/2} on room r
+  Eigen::MatrixXd defect_;    // X, n x m
+  Eigen::MatrixXd coupling_;  // P' X, m x m
+};
+
+Rooms chosen_rooms(const ClosureChoice& choice, const FormFactors& form_factors) {
+  if (choice.blocks == "groups") return rooms_of_groups(form_factors);
+  Rooms rooms = find_rooms(form_factors);
+  if (choice.blocks == "rooms") return rooms;
+  return divide_rooms(form_factors, rooms, std::stoi(choice.blocks));
+}
+
+std::unique_ptr<KernelOperator> as_kernel(std::unique_ptr<LinearOperator> transport, const std::string& why) {
+  auto* kernel = dynamic_cast<KernelOperator*>(transport.get());
+  if (kernel == nullptr || !transport->symmetric())
+    fail<UsageError>("{} needs a symmetric kernel, which {} is not: use closure=rows or none", why,
+                     transport->describe());
+  transport.release();
+  return std::unique_ptr<KernelOperator>(kernel);
+}
+
+void require_true_kernel(const FormFactors& form_factors, const std::string& why) {
+  if (!form_factors.symmetric())
+    fail<UsageError>("{} needs a symmetric kernel, which form factors by '{}' do not have: use closure=rows",
+                     why, form_factors.quality.method);
+}
+
+/// The rule of OperatorClosure::automatic.
+OperatorClosure choose_closure(const LinearOperator& transport, const FormFactors& form_factors,
+                               Rooms& rooms) {
+  constexpr double exact_rows = 1e-6, near_enough = 1e-2, reflective = 0.9;
+  const auto* kernel = dynamic_cast<const KernelOperator*>(&transport);
+  if (kernel == nullptr || !form_factors.symmetric() || transport.size() == 0) return OperatorClosure::none;
+  const Eigen::VectorXd defect = kernel_row_sums(*kernel) - form_factors.row_sums();
+  if (defect.cwiseAbs().maxCoeff() <= exact_rows) return OperatorClosure::none;
+  const double rms = defect.norm() / std::sqrt(static_cast<double>(defect.size()));
+  if (rms > near_enough && kernel->reflectance().maxCoeff() < reflective) return OperatorClosure::none;
+  rooms = find_rooms(form_factors);
+  return rooms.count > 1 ? OperatorClosure::blocks : OperatorClosure::symmetric;
+}
+
+void check_blocks(const std::string& blocks, const std::string& spec) {
+  if (blocks == "rooms" || blocks == "groups") return;
+  int count = 0;
+  const auto [end, error] = std::from_chars(blocks.data(), blocks.data() + blocks.size(), count);
+  if (error != std::errc() || end != blocks.data() + blocks.size() || count < 1 || count > 4096)
+    fail<UsageError>("'{}': blocks={} is neither rooms nor groups nor a number from 1 to 4096", spec, blocks);
+}
+
+}  // namespace
+
+ClosureChoice ClosureChoice::take(Spec& spec, const std::string& fallback) {
+  ClosureChoice choice;
+  const std::string kind = spec.text("closure", fallback);
+  if (kind == "rows")
+    choice.kind = OperatorClosure::rows;
+  else if (kind == "symmetric")
+    choice.kind = OperatorClosure::symmetric;
+  else if (kind == "blocks")
+    choice.kind = OperatorClosure::blocks;
+  else if (kind == "automatic")
+    choice.kind = OperatorClosure::automatic;
+  else if (kind != "none")
+    fail<UsageError>("'{}': closure={} is none of none, rows, symmetric, blocks, automatic", spec.text(),
+                     kind);
+  if (choice.kind != OperatorClosure::none) choice.text = "closure=" + kind;
+  if (choice.kind == OperatorClosure::blocks) {
+    choice.blocks = spec.text("blocks", "rooms");
+    check_blocks(choice.blocks, spec.text());
+    if (choice.blocks != "rooms") choice.text += ",blocks=" + choice.blocks;
+  }
+  return choice;
+}
+
+std::unique_ptr<LinearOperator> close_operator(std::unique_ptr<LinearOperator> approximation,
+                                               const ClosureChoice& choice, const FormFactors& form_factors) {
+  OperatorClosure kind = choice.kind;
+  Rooms rooms;
+  if (kind == OperatorClosure::automatic) kind = choose_closure(*approximation, form_factors, rooms);
+  if (kind == OperatorClosure::none) return approximation;
+  if (kind == OperatorClosure::rows)
+    return std::make_unique<RowClosedOperator>(std::move(approximation), form_factors);
+  require_true_kernel(form_factors, choice.text);
+  auto kernel = as_kernel(std::move(approximation), choice.text);
+  if (kind == OperatorClosure::symmetric)
+    return std::make_unique<ScaledKernelOperator>(std::move(kernel), choice.text, form_factors);
+  if (rooms.of_patch.empty()) rooms = chosen_rooms(choice, form_factors);
+  return std::make_unique<BlockClosedOperator>(std::move(kernel), choice.text, form_factors,
+                                               std::move(rooms));
+}
+
+}  // namespace radiosity
