@@ -102,6 +102,11 @@ double bound_exponent(Index n, Index width, double confidence) {
   return std::log(1.648 * std::sqrt(static_cast<double>(n)) / failure);
 }
 
+/// So many that the bound is as tight as it is wanted.
+int enough_steps(double exponent) {
+  return static_cast<int>(std::ceil(0.5 * (exponent / std::sqrt(tightness) + 1)));
+}
+
 class Search {
  public:
   Search(const BlockProduct& S, Index n, const EigenpairOptions& options)
@@ -134,7 +139,7 @@ class Search {
       return false;
     }
     const double exponent = bound_exponent(size(), width, options_.confidence);
-    const int steps = static_cast<int>(std::ceil(0.5 * (exponent / std::sqrt(tightness) + 1)));
+    const int steps = enough_steps(exponent);
     KrylovRun krylov(S_, vectors_, normal_matrix(size(), width, options_.seed, round));
     int step = 0;
     bool unsettled = true;
@@ -216,6 +221,29 @@ class Search {
 };
 
 }  // namespace
+
+EigenvalueInterval eigenvalue_interval(const BlockProduct& S, Eigen::Index n, double confidence,
+                                       std::uint64_t seed) {
+  EigenvalueInterval interval;
+  interval.confidence = confidence;
+  if (n == 0) return interval;
+  const Index width = std::min(block_width, n);
+  const double exponent = bound_exponent(n, width, 1 - 0.5 * (1 - confidence));
+  const int steps = enough_steps(exponent);
+  const MatrixXd nothing(n, 0);
+  KrylovRun krylov(S, nothing, normal_matrix(n, width, seed, 0));
+  for (int step = 0; step < steps && !krylov.exhausted(); ++step) krylov.step();
+  krylov.evaluate();
+  const double least = krylov.values.minCoeff(), largest = krylov.values.maxCoeff();
+  const double share = krylov.exhausted() ? 0 : std::pow(exponent / (2 * steps - 1), 2);
+  const double margin =
+      share / (1 - 2 * share) * (largest - least) + 1e-13 * std::max(std::abs(least), largest);
+  interval.low = least - margin;
+  interval.high = largest + margin;
+  interval.largest_ritz = largest;
+  interval.products = krylov.products();
+  return interval;
+}
 
 LeadingEigenpairs leading_eigenpairs(const BlockProduct& S, Eigen::Index n, const EigenpairOptions& options) {
   if (n == 0) return {};

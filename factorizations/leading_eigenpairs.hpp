@@ -41,4 +41,17 @@ struct LeadingEigenpairs {
 /// of the block is such a start. If the space is exhausted before, the values are exact to rounding.
 LeadingEigenpairs leading_eigenpairs(const BlockProduct& S, Eigen::Index n, const EigenpairOptions& options);
 
+struct EigenvalueInterval {
+  double low = 0;           ///< with probability >= confidence every eigenvalue lies between low
+  double high = 0;          ///< and high
+  double largest_ritz = 0;  ///< and some lie here or above
+  double confidence = 0;
+  int products = 0;  ///< columns multiplied
+};
+
+/// Where the eigenvalues of a symmetric S lie, whatever their signs: the theorem above at both ends of the
+/// spectrum, lambda_1 <= ritz_1 + e (ritz_1 - ritz_k) / (1 - 2e) and alike below.
+EigenvalueInterval eigenvalue_interval(const BlockProduct& S, Eigen::Index n, double confidence,
+                                       std::uint64_t seed);
+
 }  // namespace radiosity

@@ -1,6 +1,8 @@
 #include "solvers/spectral_radius.hpp"
 
+#include "factorizations/leading_eigenpairs.hpp"
 #include "foundation/error.hpp"
+#include "operators/kernel_operator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +31,32 @@ Ratios entry_ratios(const Field& images, const Field& fields) {
   return ratios;
 }
 
+/// max |lambda| of R^{1/2} K R^{1/2} over the channels, if the operator is a symmetric kernel.
+void bound_by_lanczos(const LinearOperator& transport, SpectralRadius& radius) {
+  constexpr double confidence = 0.9999;
+  const auto* kernel = dynamic_cast<const KernelOperator*>(&transport);
+  if (kernel == nullptr || !transport.symmetric()) return;
+  double bound = 0;
+  for (Index c = 0; c < kernel->channels(); ++c) {
+    const Eigen::VectorXd root = kernel->reflectance().col(c).cwiseSqrt();
+    const BlockProduct S = [&](const Eigen::MatrixXd& X) {
+      Field image(X.rows(), X.cols());
+      kernel->apply_kernel(root.asDiagonal() * X, image);
+      return Eigen::MatrixXd(root.asDiagonal() * image);
+    };
+    const EigenvalueInterval interval =
+        eigenvalue_interval(S, kernel->size(), confidence, static_cast<std::uint64_t>(c));
+    bound = std::max({bound, interval.high, -interval.low});
+    radius.products += interval.products;
+  }
+  if (radius.upper && *radius.upper <= bound) return;
+  radius.upper = bound;
+  radius.confidence = confidence;
+}
+
 }  // namespace
 
-SpectralRadius bound_spectral_radius(const LinearOperator& transport, int max_products) {
+SpectralRadius collatz_wielandt_bounds(const LinearOperator& transport, int max_products) {
   SpectralRadius radius;
   const Certificate certificate = transport.certificate();
   const Index n = transport.size();
@@ -68,6 +93,12 @@ SpectralRadius bound_spectral_radius(const LinearOperator& transport, int max_pr
   radius.upper = high * allowance;
   if (certificate.spectral_radius_bound)
     radius.upper = std::min(*radius.upper, *certificate.spectral_radius_bound);
+  return radius;
+}
+
+SpectralRadius bound_spectral_radius(const LinearOperator& transport, int max_products) {
+  SpectralRadius radius = collatz_wielandt_bounds(transport, max_products);
+  if (!radius.upper || (*radius.upper >= 1 && radius.lower < 1)) bound_by_lanczos(transport, radius);
   return radius;
 }
 

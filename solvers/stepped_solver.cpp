@@ -1,6 +1,7 @@
 #include "solvers/stepped_solver.hpp"
 
 #include "foundation/error.hpp"
+#include "solvers/spectral_radius.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,7 @@ void SteppedSolver::start(const Field& emission) {
   }
   if (open_.empty()) return;
   refuse_room_without_absorption();
+  refuse_growing_light();
   begin();
 }
 
@@ -63,6 +65,22 @@ void SteppedSolver::refuse_room_without_absorption() const {
   kernel->apply_kernel(root_area(), gathered);
   const Eigen::VectorXd row_sums = gathered.col(0).cwiseQuotient(root_area());
   if ((row_sums.array() - 1).abs().maxCoeff() <= form_factor_error) fail_as_singular();
+}
+
+/// Where the spectral radius is known to be above 1, light grows without end and B = E + T B has no physical
+/// answer, however well its equations can be solved. One product tells as a rule; examined once a solver.
+void SteppedSolver::refuse_growing_light() {
+  if (growth_examined_) return;
+  growth_examined_ = true;
+  constexpr int few_products = 3;
+  const double least = collatz_wielandt_bounds(transport(), few_products).lower;
+  if (least <= 1 + singularity_threshold()) return;
+  fail(
+      "{}: the spectral radius of T is at least {:.6g}, so that light would grow at every bounce (row sums "
+      "of an "
+      "approximate F above 1): close the operator (closure=symmetric) or the form factors, or lower the "
+      "reflectance.",
+      name_, least);
 }
 
 void SteppedSolver::step() {

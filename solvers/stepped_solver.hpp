@@ -81,6 +81,7 @@ class SteppedSolver : public Solver {
 
  private:
   void refuse_room_without_absorption() const;
+  void refuse_growing_light();
 
   std::string name_;
   SolverProblem problem_;
@@ -90,6 +91,7 @@ class SteppedSolver : public Solver {
   Eigen::RowVectorXd relative_residuals_;
   std::vector<Index> open_;
   int products_ = 0;
+  bool growth_examined_ = false;
 };
 
 /// u = 2^-53, the unit roundoff of double.

@@ -66,6 +66,23 @@ TEST(LeadingEigenpairs, ForgettingOneVectorBreaksTheBound) {
   EXPECT_GT(rest, pairs.rest_bound);
 }
 
+TEST(EigenvalueInterval, HoldsEveryEigenvalueOverManySeeds) {
+  const Eigen::MatrixXd S = matrix_with(spectrum({0.97, 0.95}, 150), 4);
+  const Eigen::MatrixXd negative = -2 * S;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const auto interval = [&](const Eigen::MatrixXd& matrix) {
+      return eigenvalue_interval([&](const Eigen::MatrixXd& X) { return Eigen::MatrixXd(matrix * X); }, 150,
+                                 0.9999, seed);
+    };
+    EXPECT_GE(interval(S).high, 0.97);
+    EXPECT_LE(interval(S).low, -0.3);
+    EXPECT_LE(interval(S).high, 1.02);
+    EXPECT_LE(interval(S).largest_ritz, 0.97 + 1e-12);
+    EXPECT_LE(interval(negative).low, -1.94);
+    EXPECT_GE(interval(negative).low, -2.1);
+  }
+}
+
 TEST(LeadingEigenpairs, SmallAndExtremeMatrices) {
   EXPECT_EQ(pairs_of(Eigen::MatrixXd(0, 0)).values.size(), 0);
   for (const Eigen::Index n : {1, 2, 3, 5, 17}) {

@@ -63,6 +63,31 @@ TEST(SpectralRadius, RowSumsAloneWouldBeTooSmallABound) {
   EXPECT_LT(room.transport(0).rowwise().sum().mean(), power_radius(room));
 }
 
+TEST(SpectralRadius, SignedSymmetricKernelsAreBoundedByLanczos) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Room room = closed_room(80, seed, 0.9);
+    room.kernel.row(3) *= -1;
+    room.kernel.col(3) *= -1;
+    room.kernel -= 0.002 * Eigen::MatrixXd::Ones(80, 80);
+    const SpectralRadius bounds = bound_spectral_radius(RoomKernel(room));
+    ASSERT_TRUE(bounds.upper.has_value());
+    EXPECT_LT(bounds.confidence, 1);
+    EXPECT_LE(power_radius(room), *bounds.upper);
+    EXPECT_LE(*bounds.upper, 1.05 * power_radius(room));
+    // What positive fields alone say of a signed operator is nothing.
+    EXPECT_FALSE(collatz_wielandt_bounds(RoomKernel(room)).upper.has_value());
+  }
+}
+
+TEST(SpectralRadius, LanczosHelpsWhereRowsAreUneven) {
+  Room room = closed_room(80, 4, 0.9);
+  room.kernel.topLeftCorner(4, 4) *= 7;
+  const SpectralRadius rows = collatz_wielandt_bounds(RoomKernel(room), 1);
+  ASSERT_GE(*rows.upper, 1);
+  EXPECT_LT(*bound_spectral_radius(RoomKernel(room), 1).upper, 1);
+  EXPECT_GE(*bound_spectral_radius(RoomKernel(room), 1).upper, power_radius(room));
+}
+
 TEST(SpectralRadius, ADarkRoomHasNone) {
   Room room = closed_room(30, 1, 0);
   EXPECT_EQ(*bound_spectral_radius(RoomTransport(room)).upper, 0);
