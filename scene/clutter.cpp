@@ -86,6 +86,7 @@ Scene make_clutter(Spec& spec) {
   }
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
+  scene.conforming = true;
   scene.camera = Camera{{0.5, 0.5, 0.995}, {0.5, 0.5, 0.0}, Vector3::UnitY(), 75.0};
   return scene;
 }

@@ -17,6 +17,7 @@ namespace {
 Scene room_of(SceneBuilder& builder) {
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
+  scene.conforming = true;
   scene.camera = Camera{{0.5, 0.5, 0.99}, {0.5, 0.5, 0.0}, Vector3::UnitY(), 75.0};
   return scene;
 }

@@ -13,6 +13,7 @@ namespace {
 Scene open_scene_of(SceneBuilder& builder, const Vector3& target) {
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
+  scene.conforming = true;
   scene.camera = Camera{target + Vector3(0.8, 1.6, 2.6), target, Vector3::UnitY(), 39.3077};
   return scene;
 }
@@ -45,6 +46,7 @@ Scene make_facing_plates(Spec& spec) {
   builder.face({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, materials.grey, builder.group("plate"));
   builder.face({{0, y, 0}, {1, y, 0}, {1, y, 1}, {0, y, 1}}, materials.light, builder.group("light"));
   Scene scene = open_scene_of(builder, {0.5, 0, 0.5});
+  scene.conforming = false;
   scene.box_like = true;
   return scene;
 }
@@ -53,6 +55,7 @@ Scene make_open_box(Spec& spec) {
   SceneBuilder builder(spec.name());
   add_open_box(builder, GreyMaterials::add(builder, spec));
   Scene scene = open_scene_of(builder, Vector3::Constant(0.5));
+  scene.conforming = false;
   scene.box_like = true;
   return scene;
 }
@@ -64,6 +67,7 @@ Scene make_isolated_patch(Spec& spec) {
   const double y = -0.5;
   builder.face({{0, y, 0}, {1, y, 0}, {1, y, 1}, {0, y, 1}}, materials.light, builder.group("isolated"));
   Scene scene = open_scene_of(builder, Vector3::Constant(0.5));
+  scene.conforming = false;
   scene.box_like = true;
   return scene;
 }

@@ -72,6 +72,7 @@ Scene make_chain(Spec& spec, const Chain& chain) {
   }
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
+  scene.conforming = true;
   scene.camera = Camera{{0.02, 0.6, 0.6}, {1.0, 0.4, 0.48}, Vector3::UnitY(), 75.0};
   return scene;
 }
@@ -118,6 +119,7 @@ Scene make_l_room(Spec& spec) {
   }
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
+  scene.conforming = true;
   scene.camera = Camera{{0.5, 0.45, 1.98}, {0.6, 0.4, 0.4}, Vector3::UnitY(), 75.0};
   return scene;
 }

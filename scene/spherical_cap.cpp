@@ -53,6 +53,7 @@ Scene make_cap(Spec& spec, const SphericalCap& cap, const char* dark_group) {
   }
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
+  scene.conforming = true;
   return scene;
 }
 
