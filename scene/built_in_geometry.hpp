@@ -35,8 +35,9 @@ Scene make_l_room(Spec& spec);
 /// and box1, box2, ...; reflectance= is that of all other surfaces. Watertight.
 Scene make_clutter(Spec& spec);
 
-/// The inside of a faceted unit sphere in rings (3 to 64) of trapezoids; the upper quarter of the rings is
-/// the group light, the rest wall. Watertight.
+/// The inside of a unit sphere as 2 rings^2 facets in rings (3 to 64) of trapezoids, the corners on the
+/// sphere, where F_ij = A_j / A (hard case E2; the facets come near with 1 / rings^2); the upper quarter of
+/// the rings is the group light, the rest wall. Watertight.
 Scene make_sphere_cavity(Spec& spec);
 
 /// The inside of the cap of a unit sphere around its lowest point with half-angle beta (1 to 179 degrees), in

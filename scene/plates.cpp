@@ -13,7 +13,6 @@ namespace {
 Scene open_scene_of(SceneBuilder& builder, const Vector3& target) {
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
-  scene.conforming = true;
   scene.camera = Camera{target + Vector3(0.8, 1.6, 2.6), target, Vector3::UnitY(), 39.3077};
   return scene;
 }
@@ -36,7 +35,9 @@ Scene make_wedge(Spec& spec) {
   const Vector3 far(std::cos(angle), std::sin(angle), 0);
   builder.face({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, materials.grey, builder.group("floor"));
   builder.face({{0, 0, 0}, far, far + Vector3::UnitZ(), {0, 0, 1}}, materials.light, builder.group("light"));
-  return open_scene_of(builder, {0.3, 0.2, 0.5});
+  Scene scene = open_scene_of(builder, {0.3, 0.2, 0.5});
+  scene.conforming = true;
+  return scene;
 }
 
 Scene make_facing_plates(Spec& spec) {
@@ -46,7 +47,6 @@ Scene make_facing_plates(Spec& spec) {
   builder.face({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, materials.grey, builder.group("plate"));
   builder.face({{0, y, 0}, {1, y, 0}, {1, y, 1}, {0, y, 1}}, materials.light, builder.group("light"));
   Scene scene = open_scene_of(builder, {0.5, 0, 0.5});
-  scene.conforming = false;
   scene.box_like = true;
   return scene;
 }
@@ -55,7 +55,6 @@ Scene make_open_box(Spec& spec) {
   SceneBuilder builder(spec.name());
   add_open_box(builder, GreyMaterials::add(builder, spec));
   Scene scene = open_scene_of(builder, Vector3::Constant(0.5));
-  scene.conforming = false;
   scene.box_like = true;
   return scene;
 }
@@ -67,7 +66,6 @@ Scene make_isolated_patch(Spec& spec) {
   const double y = -0.5;
   builder.face({{0, y, 0}, {1, y, 0}, {1, y, 1}, {0, y, 1}}, materials.light, builder.group("isolated"));
   Scene scene = open_scene_of(builder, Vector3::Constant(0.5));
-  scene.conforming = false;
   scene.box_like = true;
   return scene;
 }

@@ -5,13 +5,13 @@
 namespace radiosity {
 namespace {
 
-using Cell = RectilinearSpace::Cell;
+using GridCell = RectilinearSpace::Cell;
 
 int cell_count(const RectilinearSpace& space, int axis) {
   return static_cast<int>(space.planes[static_cast<std::size_t>(axis)].size()) - 1;
 }
 
-bool is_inside_and_free(const RectilinearSpace& space, const Cell& cell) {
+bool is_inside_and_free(const RectilinearSpace& space, const GridCell& cell) {
   for (int axis = 0; axis < 3; ++axis) {
     const int at = cell[static_cast<std::size_t>(axis)];
     if (at < 0 || at >= cell_count(space, axis)) return false;
@@ -20,7 +20,7 @@ bool is_inside_and_free(const RectilinearSpace& space, const Cell& cell) {
 }
 
 /// The side of a cell at its lower (0) or upper (1) plane normal to `axis`.
-RectilinearWall side_of(const RectilinearSpace& space, const Cell& cell, int axis, int upper) {
+RectilinearWall side_of(const RectilinearSpace& space, const GridCell& cell, int axis, int upper) {
   const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
   const auto w = static_cast<std::size_t>(axis);
   const auto plane = [&](std::size_t along, int step) {
@@ -37,11 +37,12 @@ RectilinearWall side_of(const RectilinearSpace& space, const Cell& cell, int axi
   return wall;
 }
 
-void add_walls_of_cell(const RectilinearSpace& space, const Cell& cell, std::vector<RectilinearWall>& walls) {
+void add_walls_of_cell(const RectilinearSpace& space, const GridCell& cell,
+                       std::vector<RectilinearWall>& walls) {
   if (!is_inside_and_free(space, cell)) return;
   for (int axis = 0; axis < 3; ++axis)
     for (const int upper : {0, 1}) {
-      Cell neighbour = cell;
+      GridCell neighbour = cell;
       neighbour[static_cast<std::size_t>(axis)] += 2 * upper - 1;
       if (!is_inside_and_free(space, neighbour)) walls.push_back(side_of(space, cell, axis, upper));
     }

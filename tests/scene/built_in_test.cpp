@@ -1,4 +1,5 @@
 #include "foundation/error.hpp"
+#include "mesh_checks.hpp"
 #include "scene/built_in.hpp"
 #include "scene/import.hpp"
 #include "scene/patch_mesh.hpp"
@@ -11,14 +12,6 @@
 
 namespace radiosity {
 namespace {
-
-std::map<std::string, double> group_areas(const PatchMesh& mesh) {
-  std::map<std::string, double> areas;
-  for (Index i = 0; i < mesh.patch_count(); ++i)
-    areas[mesh.scene->groups[static_cast<std::size_t>(mesh.patches[static_cast<std::size_t>(i)].group)]] +=
-        mesh.area[i];
-  return areas;
-}
 
 // Quadrilateral with corners in a plane (shoelace), mm^2.
 double quad_area(const std::array<std::array<double, 2>, 4>& corners) {
@@ -60,7 +53,7 @@ TEST(Cube, GivesSixTimesASquareNumberOfPatches) {
 TEST(CornellBoxClosed, HasTheAreasThatFollowFromTheMeasurement) {
   for (const Index patches : {0, 3300}) {
     const PatchMesh mesh = make_patches(built_in_scene("cornell-box-closed"), {.patches = patches});
-    const auto areas = group_areas(mesh);
+    const auto areas = area_by_group(mesh);
     const double mm2 = 1e-6;
     EXPECT_NEAR(areas.at("floor"), (556 * 559.2 - kShortFootprint - kTallFootprint) * mm2, 1e-12);
     EXPECT_NEAR(areas.at("light"), 130 * 105 * mm2, 1e-13);

@@ -1,7 +1,7 @@
+#include "mesh_checks.hpp"
 #include "scene/built_in.hpp"
 #include "scene/patch_mesh.hpp"
 #include "scene/polygon.hpp"
-#include "watertight.hpp"
 
 #include <gtest/gtest.h>
 

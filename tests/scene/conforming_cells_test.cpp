@@ -1,7 +1,7 @@
+#include "mesh_checks.hpp"
 #include "scene/built_in.hpp"
 #include "scene/patch_mesh.hpp"
 #include "scene/scene_builder.hpp"
-#include "watertight.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +17,7 @@ Scene frustum() {
   const int group = builder.group("frustum");
   const std::vector<Vector3> base = {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}};
   std::vector<Vector3> top;
+  top.reserve(base.size());
   for (const Vector3& corner : base) top.emplace_back(corner.x() / 4, 1, corner.z() / 4);
   builder.face({base[3], base[2], base[1], base[0]}, grey, group);
   builder.face(top, grey, group);

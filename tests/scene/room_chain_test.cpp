@@ -1,6 +1,6 @@
+#include "mesh_checks.hpp"
 #include "scene/built_in.hpp"
 #include "scene/patch_mesh.hpp"
-#include "watertight.hpp"
 
 #include <gtest/gtest.h>
 
