@@ -27,15 +27,21 @@ struct InfoOptions {
   std::filesystem::path json_file;
 };
 
+/// On two lines where the spec is long.
+void print_entry(const std::string& defaults, const std::string& summary) {
+  if (defaults.size() <= 20)
+    fmt::print("  {:<20} {}\n", defaults, summary);
+  else
+    fmt::print("  {}\n{:23}{}\n", defaults, ' ', summary);
+}
+
 void print_list(const Program& program) {
   fmt::print("Built-in scenes\n");
-  for (const BuiltInScene& scene : built_in_scenes()) fmt::print("  {:<20} {}\n", scene.name, scene.summary);
+  for (const BuiltInScene& scene : built_in_scenes()) print_entry(scene.defaults, scene.summary);
   fmt::print("\nOperators\n");
-  for (const OperatorEntry& entry : program.operators.entries())
-    fmt::print("  {:<20} {}\n", entry.defaults, entry.summary);
+  for (const OperatorEntry& entry : program.operators.entries()) print_entry(entry.defaults, entry.summary);
   fmt::print("\nSolvers\n");
-  for (const SolverEntry& entry : program.solvers.entries())
-    fmt::print("  {:<20} {}\n", entry.defaults, entry.summary);
+  for (const SolverEntry& entry : program.solvers.entries()) print_entry(entry.defaults, entry.summary);
 }
 
 std::string connectivity_text(const Topology& topology) {

@@ -105,7 +105,7 @@ Scene finish(SceneBuilder& builder) {
 
 }  // namespace
 
-Scene make_cornell_box() {
+Scene make_cornell_box(Spec&) {
   SceneBuilder builder("cornell-box");
   const Palette palette = add_materials(builder);
   add_room(builder, kMeasured, palette);
@@ -113,7 +113,7 @@ Scene make_cornell_box() {
   return finish(builder);
 }
 
-Scene make_closed_cornell_box() {
+Scene make_closed_cornell_box(Spec&) {
   SceneBuilder builder("cornell-box-closed");
   const Palette palette = add_materials(builder);
   add_room(builder, kPlanar, palette);

@@ -34,7 +34,7 @@ void add_block(SceneBuilder& builder, const std::array<std::array<double, 2>, 4>
 // The Cornell box as a graphics course simplified it: 30 triangles, plane walls of side 555, blocks without
 // bottoms, no light (give one with --set). Document 003 counts 192, 304, 464 and 784 patches on it:
 // Subdivision{.edge = 130, .passes = 3 ... 6}.
-Scene make_course_box() {
+Scene make_course_box(Spec&) {
   SceneBuilder builder("course-box");
   const auto colour = [&](const char* name, double r, double g, double b) {
     return builder.material({name, Color(r, g, b), Color::Zero()});

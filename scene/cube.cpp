@@ -3,7 +3,7 @@
 
 namespace radiosity {
 
-Scene make_cube() {
+Scene make_cube(Spec&) {
   SceneBuilder builder("cube");
   const int grey = builder.material({"grey", Color::Constant(0.5), Color::Zero()});
   const int light = builder.material({"light", Color::Constant(0.5), Color::Ones()});

@@ -42,10 +42,13 @@ void visit_parts(const Polygon& triangle, double edge, int passes, int depth, co
 
 }  // namespace
 
+std::int64_t cells_along(double length, double edge) {
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / edge * (1 - kRounding))));
+}
+
 GridSize grid_size(const Polygon& quad, double edge) {
   const auto cells = [&](std::size_t k) {
-    const double longest = std::max(edge_length(quad, k), edge_length(quad, k + 2));
-    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(longest / edge * (1 - kRounding))));
+    return cells_along(std::max(edge_length(quad, k), edge_length(quad, k + 2)), edge);
   };
   return {.rows = cells(1), .columns = cells(0)};
 }

@@ -13,6 +13,9 @@ struct GridSize {
   std::int64_t columns = 1;
 };
 
+/// The fewest cells along a length with none above `edge`.
+std::int64_t cells_along(double length, double edge);
+
 /// The fewest rows and columns whose cells have no edge above `edge`.
 GridSize grid_size(const Polygon& quad, double edge);
 

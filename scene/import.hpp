@@ -13,8 +13,8 @@ namespace radiosity {
 /// unreadable: NaN, infinity, bad indices, empty and truncated files.
 Scene import_scene(const std::filesystem::path& file);
 
-/// A file if `name_or_file` names one or has a known extension, else a built-in scene.
-/// Throws Error that lists the built-in names for anything else.
+/// A file if `name_or_file` names one or has a known extension, else the built-in scene of that spec.
+/// Throws Error that lists the built-in names, or the keys of the scene, for anything else.
 Scene open_scene(const std::string& name_or_file);
 
 }  // namespace radiosity

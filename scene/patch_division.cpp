@@ -1,6 +1,7 @@
 #include "scene/patch_division.hpp"
 
 #include "foundation/error.hpp"
+#include "scene/conforming_cells.hpp"
 #include "scene/face_subdivision.hpp"
 
 #include <algorithm>
@@ -32,6 +33,7 @@ class FaceDivider {
   }
 
   Index face_count() const { return face_count_; }
+  bool only_triangles() const { return only_triangles_; }
 
   Division undivided() {
     Division result = empty();
@@ -61,6 +63,19 @@ class FaceDivider {
     check_size(static_cast<double>(count), 0);
     if (only_triangles_) return triangles_by_count(count);
     return by_edge(edge_for(count), 0);
+  }
+
+  /// Neighbours are cut alike.
+  Division conforming_by_count(Index count) {
+    check_size(static_cast<double>(count), 0);
+    const ConformingCells conforming = conforming_cells(polygons_, count);
+    Division result = empty();
+    for (std::size_t f = 0; f < polygons_.size(); ++f)
+      if (polygons_[f].size() == 4)
+        add(result, f, grid(polygons_[f], conforming.sizes[f]));
+      else
+        add(result, f, cells(f, conforming.edge, 0));
+    return result;
   }
 
  private:
@@ -115,17 +130,10 @@ class FaceDivider {
     return count;
   }
 
-  /// The longest edge allowed for which the number of patches is nearest to `count`. The number falls as the
-  /// edge grows, in steps, so halving the interval (in the logarithm) finds the step.
+  /// The longest edge allowed for which the number of patches is nearest to `count`.
   double edge_for(Index count) const {
-    double fine = std::sqrt(area_ / static_cast<double>(count));
-    while (count_for(fine) < count) fine /= 2;
-    double coarse = fine;
-    while (count_for(coarse) > count && coarse < 1e6 * fine) coarse *= 2;
-    for (int step = 0; step < 40 && coarse > fine * (1 + 1e-9); ++step) {
-      const double middle = std::sqrt(fine * coarse);
-      (count_for(middle) >= count ? fine : coarse) = middle;
-    }
+    const auto [fine, coarse] = edges_around(std::sqrt(area_ / static_cast<double>(count)), count,
+                                             [this](double edge) { return count_for(edge); });
     return count_for(fine) - count <= count - count_for(coarse) ? fine : coarse;
   }
 
@@ -184,6 +192,7 @@ Division divide_faces(const Scene& scene, const std::vector<bool>& used, const C
   check(subdivision, faces);
   if (subdivision.edge > 0) return divider.by_edge(subdivision.edge, subdivision.passes);
   if (subdivision.patches == 0) return divider.undivided();
+  if (scene.conforming && !divider.only_triangles()) return divider.conforming_by_count(subdivision.patches);
   if (!scene.box_like) return divider.by_count(subdivision.patches);
   const double side = std::sqrt(static_cast<double>(subdivision.patches) / static_cast<double>(faces));
   return divider.squares(std::max<Index>(1, std::llround(side)));

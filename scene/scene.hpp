@@ -55,6 +55,7 @@ struct Scene {
   std::optional<Camera> camera;
   std::vector<std::string> notes;  ///< what the importer changed or dropped, one sentence each
   bool box_like = false;           ///< every face a rectangle to be cut into m x m quads (cube)
+  bool conforming = false;         ///< quads share whole edges, which a wanted number of patches cuts alike
   Contacts contacts = Contacts::when_subdivided;
 };
 

@@ -17,10 +17,10 @@ int SceneBuilder::group(const std::string& name) {
 }
 
 int SceneBuilder::vertex(const Vector3& position) {
-  const auto found = std::find(scene_.vertices.begin(), scene_.vertices.end(), position);
-  if (found != scene_.vertices.end()) return static_cast<int>(found - scene_.vertices.begin());
-  scene_.vertices.push_back(position);
-  return static_cast<int>(scene_.vertices.size()) - 1;
+  const auto [found, added] = vertices_.try_emplace({position.x(), position.y(), position.z()},
+                                                    static_cast<int>(scene_.vertices.size()));
+  if (added) scene_.vertices.push_back(position);
+  return found->second;
 }
 
 void SceneBuilder::face(const std::vector<Vector3>& corners, int material, int group) {

@@ -2,6 +2,8 @@
 
 #include "scene/scene.hpp"
 
+#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,7 @@ class SceneBuilder {
   int vertex(const Vector3& position);
 
   Scene scene_;
+  std::map<std::array<double, 3>, int> vertices_;
 };
 
 }  // namespace radiosity

@@ -37,8 +37,8 @@ TEST(Commands, EachExplainsItself) {
 TEST(Info, ListsWhatThereIs) {
   const TemporaryFolder folder;
   const std::string text = succeed({"info", "--list"}, folder);
-  for (const std::string word :
-       {"cube", "cornell-box", "dense", "csr", "cg", "gmres", "neumann", "gauss-seidel", "lu"})
+  for (const std::string word : {"cube", "rooms:n=2,door=0.3", "clutter:boxes=12", "cornell-box", "dense",
+                                 "csr", "cg", "gmres", "neumann", "gauss-seidel", "lu"})
     EXPECT_NE(text.find(word), std::string::npos) << word;
 }
 

@@ -1,7 +1,9 @@
 #include "foundation/error.hpp"
+#include "mesh_checks.hpp"
 #include "scene/built_in.hpp"
 #include "scene/import.hpp"
 #include "scene/patch_mesh.hpp"
+#include "temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +12,6 @@
 
 namespace radiosity {
 namespace {
-
-std::map<std::string, double> group_areas(const PatchMesh& mesh) {
-  std::map<std::string, double> areas;
-  for (Index i = 0; i < mesh.patch_count(); ++i)
-    areas[mesh.scene->groups[static_cast<std::size_t>(mesh.patches[static_cast<std::size_t>(i)].group)]] +=
-        mesh.area[i];
-  return areas;
-}
 
 // Quadrilateral with corners in a plane (shoelace), mm^2.
 double quad_area(const std::array<std::array<double, 2>, 4>& corners) {
@@ -59,7 +53,7 @@ TEST(Cube, GivesSixTimesASquareNumberOfPatches) {
 TEST(CornellBoxClosed, HasTheAreasThatFollowFromTheMeasurement) {
   for (const Index patches : {0, 3300}) {
     const PatchMesh mesh = make_patches(built_in_scene("cornell-box-closed"), {.patches = patches});
-    const auto areas = group_areas(mesh);
+    const auto areas = area_by_group(mesh);
     const double mm2 = 1e-6;
     EXPECT_NEAR(areas.at("floor"), (556 * 559.2 - kShortFootprint - kTallFootprint) * mm2, 1e-12);
     EXPECT_NEAR(areas.at("light"), 130 * 105 * mm2, 1e-13);
@@ -162,6 +156,84 @@ TEST(BuiltInScenes, CanAllBeOpenedByName) {
     EXPECT_EQ(open_scene(scene.name).name, scene.name);
     EXPECT_TRUE(open_scene(scene.name).camera.has_value());
   }
+}
+
+std::string refusal_of(const std::string& spec) {
+  try {
+    open_scene(spec);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(BuiltInScenes, HaveTheDefaultsThatTheyList) {
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    EXPECT_TRUE(names_built_in_scene(scene.defaults)) << scene.defaults;
+    const PatchMesh plain = make_patches(open_scene(scene.name));
+    const PatchMesh listed = make_patches(open_scene(scene.defaults));
+    EXPECT_EQ(plain.geometry_hash(), listed.geometry_hash()) << scene.name;
+    EXPECT_EQ(plain.reflectance, listed.reflectance) << scene.name;
+    EXPECT_EQ(plain.emission, listed.emission) << scene.name;
+  }
+}
+
+TEST(BuiltInScenes, KeepTheSpecAsTheirName) {
+  EXPECT_EQ(open_scene("rooms:n=5,door=0.3").name, "rooms:n=5,door=0.3");
+  EXPECT_FALSE(names_built_in_scene("room:n=5"));
+}
+
+TEST(BuiltInScenes, RefuseKeysThatTheyDoNotKnow) {
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    const std::string spec = scene.name + ":nonsense=1";
+    EXPECT_NE(refusal_of(spec).find("'nonsense'"), std::string::npos) << refusal_of(spec);
+  }
+  EXPECT_NE(refusal_of("rooms:doors=1").find("'rooms' knows n, door, closed, reflectance"), std::string::npos)
+      << refusal_of("rooms:doors=1");
+}
+
+TEST(BuiltInScenes, RefuseValuesOutOfRange) {
+  for (const char* spec : {"rooms:n=0",
+                           "rooms:n=65",
+                           "rooms:n=two",
+                           "rooms:door=1.5",
+                           "rooms:door=0.0001",
+                           "rooms:n=3,closed=3",
+                           "rooms:door=nan",
+                           "rooms:reflectance=1.1",
+                           "keyhole:width=0",
+                           "keyhole:height=2",
+                           "disconnected-rooms:n=0",
+                           "clutter:boxes=101",
+                           "clutter:seed=-1",
+                           "clutter:reflectance=-0.1",
+                           "sphere-cavity:rings=2",
+                           "bowl:beta=0",
+                           "bowl:beta=180",
+                           "bowl:rings=1",
+                           "wedge:angle=0.5",
+                           "wedge:angle=180",
+                           "facing-plates:distance=0",
+                           "slivers:aspect=1e7"}) {
+    const std::string message = refusal_of(spec);
+    EXPECT_NE(message.find(spec), std::string::npos) << spec << ": " << message;
+  }
+}
+
+TEST(BuiltInScenes, ComeCloseToTheWantedNumberOfPatches) {
+  for (const BuiltInScene& scene : built_in_scenes())
+    for (const Index wanted : {600, 3300}) {
+      const Scene made = open_scene(scene.name);
+      const auto count = static_cast<double>(make_patches(made, {.patches = wanted}).patch_count());
+      EXPECT_NEAR(count / static_cast<double>(wanted), 1, 0.04) << scene.name << " " << wanted;
+    }
+}
+
+TEST(BuiltInScenes, LeaveFilesWhoseNamesContainAColonToTheImporter) {
+  const TemporaryFolder folder;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(open_scene(folder.write("rooms:n=5.obj", triangle).string()).faces.size(), 1U);
+  EXPECT_EQ(open_scene(folder.write("cube:1.obj", triangle).string()).faces.size(), 1U);
 }
 
 }  // namespace
