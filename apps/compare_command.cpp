@@ -35,11 +35,8 @@ struct CompareOptions {
 };
 
 bool names_scene(const std::string& text) {
-  const std::vector<BuiltInScene>& scenes = built_in_scenes();
   std::error_code ignored;
-  return std::filesystem::is_regular_file(text, ignored) ||
-         std::any_of(scenes.begin(), scenes.end(),
-                     [&](const BuiltInScene& scene) { return scene.name == text; });
+  return std::filesystem::is_regular_file(text, ignored) || names_built_in_scene(text);
 }
 
 /// --operators takes every word that follows it: a SCENE behind it would be swallowed.

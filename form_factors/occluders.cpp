@@ -23,6 +23,10 @@ struct Occluders::Tracer {
 
 namespace {
 
+/// A ray's end is as uncertain as its direction: without the last bits of its length it does not meet the
+/// surface that it was aimed at.
+constexpr float segment_end = 1 - 0x1p-21F;
+
 void fill_ray(const RayPacket& packet, RTCRay16& ray, float far) {
   for (int k = 0; k < RayPacket::size; ++k) {
     ray.org_x[k] = packet.origin_x[k];
@@ -119,7 +123,7 @@ void Occluders::find_blockers(const std::vector<ConvexPolygon>& faces) {
 
 void Occluders::trace(RayPacket& packet) const {
   RTCRay16 ray;
-  fill_ray(packet, ray, 1);
+  fill_ray(packet, ray, segment_end);
   RTCIntersectContext context;
   initialize(context, true);
   rtcOccluded16(packet.active, tracer_->scene, &context, &ray);
@@ -132,7 +136,7 @@ double Occluders::tracing_seconds(std::span<const RayPacket> packets) const {
   double seconds = 0;
   for (std::size_t begin = 0; begin < packets.size(); begin += batch) {
     const std::size_t count = std::min(batch, packets.size() - begin);
-    for (std::size_t k = 0; k < count; ++k) fill_ray(packets[begin + k], rays[k], 1);
+    for (std::size_t k = 0; k < count; ++k) fill_ray(packets[begin + k], rays[k], segment_end);
     RTCIntersectContext context;
     initialize(context, true);
     const Stopwatch watch;

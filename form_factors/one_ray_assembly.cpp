@@ -59,14 +59,15 @@ AssembledKernel assemble_one_ray(const PatchMesh& mesh, const PatchGeometry& geo
           kernel.set(geometry.to_mesh(i), geometry.to_mesh(partner[l]), value[l]);
       waiting = 0;
     };
-    const Vector3d start = points[row] + double{PairSampler::stand_off} * geometry.plane(i).normal;
+    const Vector3d start =
+        points[row] + PairSampler::stand_off(geometry.polygon(i)) * geometry.plane(i).normal;
     for (int j = i + 1; j < n; ++j) {
       const Vector3d d = points[static_cast<std::size_t>(j)] - points[row];
       const double leaving = d.dot(geometry.plane(i).normal), arriving = -d.dot(geometry.plane(j).normal);
       if (leaving <= coplanar_slack || arriving <= coplanar_slack) continue;
       const double square = d.squaredNorm();
-      const Vector3d end =
-          points[static_cast<std::size_t>(j)] + double{PairSampler::stand_off} * geometry.plane(j).normal;
+      const Vector3d end = points[static_cast<std::size_t>(j)] +
+                           PairSampler::stand_off(geometry.polygon(j)) * geometry.plane(j).normal;
       value[waiting] = leaving * arriving / (std::numbers::pi * square * square) *
                        std::sqrt(geometry.area(i) * geometry.area(j));
       partner[waiting] = j;

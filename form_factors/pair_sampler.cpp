@@ -24,8 +24,20 @@ PairSampler::PairSampler(const PatchGeometry& geometry) : loops_(vector_loops(be
   for (int d = 0; d < SobolPoints::dimensions; ++d)
     for (std::uint32_t l = 0; l < 16; ++l) net_.low[d][l] = sobol_(d, l);
   charts_.reserve(static_cast<std::size_t>(geometry.patch_count()));
-  for (int i = 0; i < geometry.patch_count(); ++i)
+  for (int i = 0; i < geometry.patch_count(); ++i) {
     charts_.push_back(make_chart(geometry.polygon(i), geometry.plane(i)));
+    stand_off_.push_back(stand_off(geometry.polygon(i)));
+  }
+}
+
+double PairSampler::stand_off(const ConvexPolygon& polygon) {
+  constexpr double rounding = 0x1p-21;
+  double farthest = 0, extent = 0;
+  for (int k = 0; k < polygon.corner_count(); ++k) {
+    farthest = std::max(farthest, polygon[k].cwiseAbs().maxCoeff());
+    extent = std::max(extent, (polygon[k] - polygon[0]).norm());
+  }
+  return std::min(most_stand_off, std::max(0.01 * extent, rounding * farthest));
 }
 
 PatchChart PairSampler::make_chart(const ConvexPolygon& p, const Plane& plane) const {
@@ -42,7 +54,7 @@ PatchChart PairSampler::make_chart(const ConvexPolygon& p, const Plane& plane) c
     chart.slope_u = static_cast<float>(plane.normal.dot(a.cross(d)) / area);
     chart.slope_v = static_cast<float>(plane.normal.dot(d.cross(b)) / area);
   }
-  store(p[0] + double{stand_off} * plane.normal, chart.corner);
+  store(p[0] + stand_off(p) * plane.normal, chart.corner);
   store(a, chart.a);
   store(b, chart.b);
   store(d, chart.d);

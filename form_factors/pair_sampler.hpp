@@ -5,8 +5,10 @@
 #include "form_factors/sobol_points.hpp"
 #include "form_factors/vector_loops.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace radiosity {
@@ -18,8 +20,18 @@ class PairSampler {
   explicit PairSampler(const PatchGeometry& geometry);
 
   /// How far points stand off their surface, in lengths of the scaled scene: beyond float32 rounding, below
-  /// any detail.
-  static constexpr float stand_off = 3e-6F;
+  /// any detail. Patches that are tiny beside the scene have details as tiny around them: a hundredth of
+  /// their size, or rounding where they are, if that is less.
+  static constexpr double most_stand_off = 3e-6;
+  static double stand_off(const ConvexPolygon& polygon);
+
+  /// Which of two patches rays start from, and the other: the one that stands off less, since the start of a
+  /// ray is more certain than its end.
+  std::pair<int, int> ends(int i, int j) const {
+    const auto off = [&](int patch) { return stand_off_[static_cast<std::size_t>(patch)]; };
+    const int first = std::min(i, j), second = std::max(i, j);
+    return off(second) < off(first) ? std::pair(second, first) : std::pair(first, second);
+  }
 
   using Shift = std::array<std::uint32_t, SobolPoints::dimensions>;
 
@@ -50,6 +62,7 @@ class PairSampler {
   SobolPoints sobol_;
   SobolNet net_{};
   std::vector<PatchChart> charts_;
+  std::vector<double> stand_off_;
 };
 
 }  // namespace radiosity

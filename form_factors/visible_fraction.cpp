@@ -38,9 +38,9 @@ VisibilitySampling::VisibilitySampling(const PatchGeometry& geometry, const Occl
 
 VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted,
                                                std::vector<RayPacket>* record) const {
-  const int first = std::min(i, j), second = std::max(i, j);
-  const auto stream = static_cast<std::uint64_t>(geometry_.to_mesh(first)) << 32U |
-                      static_cast<std::uint64_t>(geometry_.to_mesh(second));
+  const auto [first, second] = sampler_.ends(i, j);
+  const auto stream = static_cast<std::uint64_t>(geometry_.to_mesh(std::min(i, j))) << 32U |
+                      static_cast<std::uint64_t>(geometry_.to_mesh(std::max(i, j)));
   std::array<PairSampler::Shift, kReplicates> shifts;
   for (std::size_t r = 0; r < kReplicates; ++r)
     shifts[r] = PairSampler::random_shift(seed_ + 0x51ed2701ULL * r, stream);

@@ -94,6 +94,18 @@ TEST(Visibility, BlocksInARoomKeepRowSumsAndReciprocity) {
   EXPECT_LE((exchange - exchange.transpose()).cwiseAbs().maxCoeff(), 1e-12 * exchange.maxCoeff());
 }
 
+// R3: float32 rays among faces of 1e-6 to 1e6 m^2. Rays that stood off every face alike, or started at the
+// larger of two patches, missed up to a third of the light of the smallest ones.
+TEST(Visibility, FacesOfVeryUnequalSizeSeeEachOther) {
+  for (const Index patches : {0, 100, 600}) {
+    const auto mesh =
+        std::make_shared<const PatchMesh>(make_patches(built_in_scene("uneven-areas"), {.patches = patches}));
+    const FormFactors form_factors = compute(mesh, raw());
+    EXPECT_LE((form_factors.row_sums().array() - 1).abs().maxCoeff(), 1e-2) << patches;
+    EXPECT_LE(form_factors.quality.row_sum_rms, 2e-3) << patches;
+  }
+}
+
 // The row sums of a closed room do see a tracer that forgets the blocks.
 TEST(Visibility, ForgettingTheBlocksBreaksTheRowSums) {
   const auto mesh =
