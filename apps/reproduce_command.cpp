@@ -4,6 +4,7 @@
 #include "experiments/first_light.hpp"
 #include "experiments/machine.hpp"
 #include "experiments/report.hpp"
+#include "experiments/solver_study.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 
@@ -47,7 +48,19 @@ ReportSection run_first_light(const ReproduceOptions& options, const std::string
   return first_light(options.folder, command, sizes, program.operators, program.solvers, monitor);
 }
 
-constexpr std::array<Experiment, 1> experiments = {{{"first-light", run_first_light}}};
+ReportSection run_solvers(const ReproduceOptions& options, const std::string& command, const Program& program,
+                          Monitor& monitor) {
+  SolverStudyOptions study;
+  if (options.full) {
+    study.patches_a_room = 600;
+    study.max_products = 100000;
+  }
+  study.seed = options.run.seed;
+  return solver_study(options.folder, command, study, program.operators, program.solvers, monitor);
+}
+
+constexpr std::array<Experiment, 2> experiments = {
+    {{"first-light", run_first_light}, {"solvers", run_solvers}}};
 
 void require_known_tables(const std::vector<std::string>& tables) {
   std::string known;
@@ -98,7 +111,7 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   CLI::App* command =
       app.add_subcommand("reproduce", "run the experiments: tables and figures, into results/report.html");
   const auto options = std::make_shared<ReproduceOptions>();
-  command->add_option("TABLE", options->tables, "first-light; default: all")->option_text(" ");
+  command->add_option("TABLE", options->tables, "first-light, solvers; default: all")->option_text(" ");
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")
       ->option_text("FOLDER");
