@@ -101,7 +101,7 @@ class ClosedKernelOperator : public KernelOperator {
   std::string keys_;
 };
 
-constexpr double product_rounding = 1e-6;  // of row sums, where products are done in float
+constexpr double row_sum_rounding = 1e-6;  // of row sums, where products are done in float
 
 /// D K~ D.
 class ScaledKernelOperator final : public ClosedKernelOperator {
@@ -114,7 +114,7 @@ class ScaledKernelOperator final : public ClosedKernelOperator {
       approximation().apply_kernel(x, y);
       return Eigen::VectorXd(y.col(0));
     };
-    scaling_ = scale_symmetric(product, root_area(), form_factors.row_sums(), product_rounding);
+    scaling_ = scale_symmetric(product, root_area(), form_factors.row_sums(), row_sum_rounding);
   }
 
   ByteCount bytes() const override {
