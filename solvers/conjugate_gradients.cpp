@@ -7,14 +7,21 @@
 
 namespace radiosity {
 
-ConjugateGradients::ConjugateGradients(const SolverProblem& problem)
-    : SteppedSolver("cg", problem), kernel_(require_symmetric_kernel("cg", problem.transport)) {}
+ConjugateGradients::ConjugateGradients(const SolverProblem& problem, const std::string& preconditioner)
+    : SteppedSolver("cg", problem), kernel_(require_symmetric_kernel("cg", problem.transport)) {
+  if (!preconditioner.empty()) preconditioner_.emplace(problem, preconditioner);
+}
+
+std::string ConjugateGradients::describe() const {
+  return preconditioner_ ? "cg:preconditioner=" + preconditioner_->spec() : "cg";
+}
 
 void ConjugateGradients::begin() {
   root_reflectance_ = kernel_.reflectance().cwiseSqrt();
   solution_ = Field::Zero(size(), emission().cols());
   residual_ = solution_;
   direction_ = solution_;
+  image_ = solution_;
   columns_.assign(static_cast<std::size_t>(emission().cols()), Column{});
   for (const Index j : open_columns()) show_radiosity(j);
 }
@@ -40,6 +47,10 @@ void ConjugateGradients::advance() {
     else
       iterate(j, outputs.col(k));
   }
+  std::vector<Index> going_on;
+  for (const Index j : open_columns())
+    if (columns_[static_cast<std::size_t>(j)].next == Next::iterate) going_on.push_back(j);
+  renew_directions(going_on);
 }
 
 void ConjugateGradients::evaluate(Index j, const Eigen::VectorXd& kernel_product) {
@@ -61,10 +72,9 @@ void ConjugateGradients::evaluate(Index j, const Eigen::VectorXd& kernel_product
   if (column.fruitless_evaluations >= 2) fail_as_stagnated(j);
   column.evaluated = true;
   residual_.col(j) = scattered - solution_.col(j);
-  direction_.col(j) = residual_.col(j);
-  column.squared_residual = residual_.col(j).squaredNorm();
-  if (column.squared_residual == 0)
+  if (residual_.col(j).isZero(0))
     fail_as_stagnated(j);  // only rounding is left, and the tolerance is below it
+  column.curvature = 0;
   column.smallest_residual = defect_norm;
   column.steps_without_progress = 0;
   column.next = Next::iterate;
@@ -73,23 +83,38 @@ void ConjugateGradients::evaluate(Index j, const Eigen::VectorXd& kernel_product
 void ConjugateGradients::iterate(Index j, const Eigen::VectorXd& kernel_product) {
   Column& column = columns_[static_cast<std::size_t>(j)];
   const auto root = root_reflectance_.col(j % channels());
-  const Eigen::VectorXd image = direction_.col(j) - root.cwiseProduct(kernel_product);  // (I - S) p
-  const double curvature = direction_.col(j).dot(image);
-  if (!(curvature > singularity_threshold() * direction_.col(j).squaredNorm())) fail_as_singular();
+  image_.col(j) = direction_.col(j) - root.cwiseProduct(kernel_product);
+  column.curvature = direction_.col(j).dot(image_.col(j));
+  if (!(column.curvature > singularity_threshold() * direction_.col(j).squaredNorm())) fail_as_singular();
 
-  const double step_length = column.squared_residual / curvature;
+  const double step_length = direction_.col(j).dot(residual_.col(j)) / column.curvature;
   solution_.col(j) += step_length * direction_.col(j);
-  residual_.col(j) -= step_length * image;
-  const double squared_residual = residual_.col(j).squaredNorm();
-  direction_.col(j) = residual_.col(j) + squared_residual / column.squared_residual * direction_.col(j);
-  column.squared_residual = squared_residual;
+  residual_.col(j) -= step_length * image_.col(j);
   show_radiosity(j);
 
   const double recurred = root.cwiseProduct(residual_.col(j)).norm();
   column.steps_without_progress = recurred < column.smallest_residual ? 0 : column.steps_without_progress + 1;
   column.smallest_residual = std::min(column.smallest_residual, recurred);
   const bool stuck = column.steps_without_progress > 50 + size();
-  if (small_enough(j, recurred) || squared_residual == 0 || stuck) column.next = Next::evaluate;
+  if (small_enough(j, recurred) || residual_.col(j).isZero(0) || stuck) column.next = Next::evaluate;
+}
+
+void ConjugateGradients::renew_directions(const std::vector<Index>& columns) {
+  if (columns.empty()) return;
+  Field improved = residual_(Eigen::all, columns);
+  if (preconditioner_) {
+    std::vector<Index> channel;
+    for (const Index j : columns) channel.push_back(j % channels());
+    improved = (*preconditioner_)(improved, channel, root_reflectance_);
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Index j = columns[k];
+    const double curvature = columns_[static_cast<std::size_t>(j)].curvature;
+    auto z = improved.col(static_cast<Index>(k));
+    if (!(z.dot(residual_.col(j)) > 0)) z = residual_.col(j);
+    if (curvature > 0) z -= z.dot(image_.col(j)) / curvature * direction_.col(j);
+    direction_.col(j) = z;
+  }
 }
 
 void ConjugateGradients::show_radiosity(Index j) {

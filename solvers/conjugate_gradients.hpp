@@ -1,6 +1,11 @@
 #pragma once
 
+#include "solvers/compressed_solution.hpp"
 #include "solvers/stepped_solver.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace radiosity {
 
@@ -13,19 +18,26 @@ namespace radiosity {
 /// or has its residual computed afresh: at the start, when the recurred residual says that it has converged,
 /// and when that residual has not improved for long. The area norm of B's residual is ||R^{1/2} r||, r the
 /// residual of w.
+///
+/// A preconditioner, the solution with another operator, gives exact answers at the price of a few products
+/// with the true one. Where light survives many bounces in each of several rooms, it has to be right on every
+/// room's uniform light ("closure=blocks", a coarse space of one vector a room). As it varies from step to
+/// step, each direction is made conjugate to the one before explicitly (flexible conjugate gradients, Notay
+/// 2000). products() counts the true ones.
 class ConjugateGradients final : public SteppedSolver {
  public:
-  /// Throws UsageError if the operator is not a symmetric kernel.
-  explicit ConjugateGradients(const SolverProblem& problem);
+  /// `preconditioner` is an operator's spec, or empty. Throws UsageError if either operator is not a
+  /// symmetric kernel.
+  explicit ConjugateGradients(const SolverProblem& problem, const std::string& preconditioner = {});
 
-  std::string describe() const override { return "cg"; }
+  std::string describe() const override;
 
  private:
   enum class Next { evaluate, iterate };
 
   struct Column {
     Next next = Next::evaluate;
-    double squared_residual = 0;   ///< r' r
+    double curvature = 0;          ///< p' (I - S) p of the last step; 0: none since the last evaluation
     double smallest_residual = 0;  ///< of ||R^{1/2} r|| since the last evaluation
     int steps_without_progress = 0;
     int fruitless_evaluations = 0;
@@ -34,15 +46,20 @@ class ConjugateGradients final : public SteppedSolver {
 
   void begin() override;
   void advance() override;
+  /// Takes the residual of B afresh from K b.
   void evaluate(Index j, const Eigen::VectorXd& kernel_product);
+  /// One step along the direction.
   void iterate(Index j, const Eigen::VectorXd& kernel_product);
+  void renew_directions(const std::vector<Index>& columns);
   void show_radiosity(Index j);
 
   const KernelOperator& kernel_;
+  std::optional<CompressedSolution> preconditioner_;
   Field root_reflectance_;  ///< R^{1/2}, n x channels
   Field solution_;          ///< w
   Field residual_;          ///< r
   Field direction_;         ///< p
+  Field image_;             ///< (I - S) p
   std::vector<Column> columns_;
 };
 

@@ -2,7 +2,6 @@
 
 #include "foundation/error.hpp"
 #include "solvers/conjugate_gradients.hpp"
-#include "solvers/corrected_conjugate_gradients.hpp"
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/gmres.hpp"
 #include "solvers/lu.hpp"
@@ -25,9 +24,7 @@ std::unique_ptr<Solver> make_gmres(Spec& spec, const SolverProblem& problem) {
 }
 
 std::unique_ptr<Solver> make_conjugate_gradients(Spec& spec, const SolverProblem& problem) {
-  const std::string preconditioner = spec.rest("preconditioner");
-  if (preconditioner.empty()) return std::make_unique<ConjugateGradients>(problem);
-  return std::make_unique<CorrectedConjugateGradients>(problem, preconditioner);
+  return std::make_unique<ConjugateGradients>(problem, spec.rest("preconditioner"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "experiments/form_factor_report.hpp"
 #include "foundation/error.hpp"
 #include "scene/built_in.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -64,13 +65,11 @@ Comparison run(const FormFactors& form_factors, const std::vector<std::string>& 
 }
 
 Json written(const Comparison& comparison) {
-  const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) / "radiosity_comparison.json";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "comparison.json";
   write_comparison_json(file, comparison);
   std::ifstream in(file);
-  Json document = Json::parse(in);
-  std::filesystem::remove(file);
-  return document;
+  return Json::parse(in);
 }
 
 std::set<std::string> keys(const Json& object) {
@@ -250,11 +249,11 @@ TEST(GroupFormFactors, OfTheCubeAreTheKnownOnes) {
       EXPECT_NEAR(groups.matrix(g, h), opposite ? 0.199824896 : 0.200043776, 1e-6);  // hard case G1
     }
   }
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "radiosity_groups.json";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "groups.json";
   write_form_factor_json(file, form_factors, Machine{"none", 1, 1, 0}, groups);
   std::ifstream in(file);
   const Json document = Json::parse(in);
-  std::filesystem::remove(file);
   EXPECT_EQ(keys(document), (std::set<std::string>{"scene", "machine", "form_factors", "groups", "areas",
                                                    "matrix", "standard_error"}));
   EXPECT_EQ(document["matrix"].size(), 6u);

@@ -1,5 +1,6 @@
 #include "experiments/first_light.hpp"
 #include "foundation/error.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -50,8 +51,8 @@ TEST(FirstLight, DifferenceFromPathTracingShrinksWithPatches) {
 }
 
 TEST(FirstLight, WritesFilesAndASection) {
-  const fs::path folder = fs::temp_directory_path() / "radiosity_first_light_test" / "results";
-  fs::remove_all(folder.parent_path());
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path() / "results";
   FirstLightOptions options;
   options.patches = {70, 120};
   options.reference_paths = 64;
@@ -90,16 +91,14 @@ TEST(FirstLight, WritesFilesAndASection) {
   EXPECT_NO_THROW(to_html({"report", "", "", {section}}));
   EXPECT_TRUE(fs::exists(folder / "first_light_flat.png"));
   EXPECT_TRUE(fs::exists(folder / "first_light_smooth.png"));
-  fs::remove_all(folder.parent_path());
 }
 
 TEST(FirstLight, RefusesAFolderThatCannotBe) {
-  const fs::path file = fs::temp_directory_path() / "radiosity_first_light_file";
-  std::ofstream(file) << "in the way";
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("file", "in the way");
   SilentMonitor monitor;
   EXPECT_THROW(first_light(file / "results", "", {}, cpu_operators(), cpu_solvers(), monitor), Error);
   EXPECT_THROW(measure({}, 64, {"dense"}), UsageError);
-  fs::remove(file);
 }
 
 }  // namespace

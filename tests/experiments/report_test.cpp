@@ -1,6 +1,7 @@
 #include "experiments/base64.hpp"
 #include "experiments/report.hpp"
 #include "foundation/error.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +61,8 @@ TEST(Report, RefusesRaggedTables) {
 }
 
 TEST(Report, PicturesTravelInside) {
-  const auto file = std::filesystem::temp_directory_path() / "radiosity_report_test.png";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "picture.png";
   const std::string bytes = "\x89PNG\r\n\x1a\nrest";
   std::ofstream(file, std::ios::binary) << bytes;
   const ReportFigure figure = png_figure(file, "picture", "command");
@@ -75,7 +77,8 @@ TEST(Report, PicturesTravelInside) {
 }
 
 TEST(Report, WritesAFile) {
-  const auto file = std::filesystem::temp_directory_path() / "radiosity_report_test.html";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "report.html";
   write_report(file, small_report());
   EXPECT_EQ(std::filesystem::file_size(file), to_html(small_report()).size());
   std::filesystem::remove(file);

@@ -1,4 +1,5 @@
 #include "experiments/solver_study.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,8 @@ TEST(SolverStudy, EverySolverAnswersOrSaysWhyNot) {
 }
 
 TEST(SolverStudy, WritesFilesAndASection) {
-  const auto folder = std::filesystem::temp_directory_path() / "radiosity_solver_study_test";
+  const TemporaryFolder temporary;
+  const auto& folder = temporary.path();
   SolverStudyOptions options = small_study();
   options.rooms = {1};
   options.reflectances = {0.5, 0.9};
@@ -74,7 +76,6 @@ TEST(SolverStudy, WritesFilesAndASection) {
   Report report;
   report.sections.push_back(section);
   EXPECT_NE(to_html(report).find("cg:preconditioner="), std::string::npos);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "experiments/label_placement.hpp"
 #include "experiments/svg_plot.hpp"
 #include "foundation/error.hpp"
+#include "tests/temporary_folder.hpp"
 #include "well_formed.hpp"
 
 #include <gtest/gtest.h>
@@ -152,8 +153,8 @@ TEST(ComparisonPlot, RefusesWhatItCannotShow) {
 }
 
 TEST(ComparisonPlot, AppearsWholeOrNotAtAll) {
-  const auto folder = std::filesystem::temp_directory_path() / "radiosity_comparison_plot";
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder temporary;
+  const auto folder = temporary.path() / "plots";
   EXPECT_THROW(write_comparison_plot(folder / "plot.svg", three_operators(), "no folder"), Error);
   std::filesystem::create_directories(folder);
   EXPECT_THROW(write_comparison_plot(folder / "plot.svg", {}, "nothing"), UsageError);
@@ -162,7 +163,6 @@ TEST(ComparisonPlot, AppearsWholeOrNotAtAll) {
   std::ifstream stream(folder / "plot.svg");
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   EXPECT_EQ(xml_problem(text), "");
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

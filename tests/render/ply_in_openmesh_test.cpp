@@ -2,6 +2,7 @@
 #include "render/tone_mapping.hpp"
 #include "render/write_solution.hpp"
 #include "rooms.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -21,7 +22,8 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 using DoubleMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
 TEST(PlyExport, OpensInOpenMesh) {
-  const auto file = std::filesystem::temp_directory_path() / "radiosity_ply_in_openmesh.ply";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "mesh.ply";
   const PatchMesh mesh = make_patches(test::box_room({1, 2, 3}), {.patches = 54});
   const Eigen::MatrixXd B = Eigen::VectorXd::LinSpaced(mesh.patch_count(), 1, 2);
   SilentMonitor monitor;
@@ -30,7 +32,6 @@ TEST(PlyExport, OpensInOpenMesh) {
   DoubleMesh read;
   OpenMesh::IO::Options options = OpenMesh::IO::Options::VertexColor;
   ASSERT_TRUE(OpenMesh::IO::read_mesh(read, file.string(), options));
-  std::filesystem::remove(file);
   ASSERT_EQ(read.n_faces(), mesh.patches.size());
   EXPECT_TRUE(options.vertex_has_color());
   std::size_t i = 0;

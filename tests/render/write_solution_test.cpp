@@ -3,6 +3,7 @@
 #include "render/tone_mapping.hpp"
 #include "render/write_solution.hpp"
 #include "rooms.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <assimp/Importer.hpp>
@@ -25,11 +26,6 @@ using namespace test;
 class WriteSolution : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        fs::temp_directory_path() /
-        ("radiosity_render_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     Scene scene = box_room({1, 2, 3});
     for (Vector3& vertex : scene.vertices) vertex += Vector3(1e5, 0, 0);  // float32 positions would lose this
     mesh_ = make_patches(scene, {.patches = 54});
@@ -37,7 +33,6 @@ class WriteSolution : public ::testing::Test {
     for (Index i = 0; i < B_.rows(); ++i)
       B_.row(i) << 1 + 0.01 * static_cast<double>(i), 2 - 0.01 * static_cast<double>(i), 1 / 3.0;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string write(const std::string& name) {
     SilentMonitor monitor;
@@ -55,7 +50,8 @@ class WriteSolution : public ::testing::Test {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
 
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
   PatchMesh mesh_;
   Eigen::MatrixXd B_;
 };

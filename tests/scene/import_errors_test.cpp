@@ -1,7 +1,7 @@
 #include "foundation/error.hpp"
 #include "sample_files.hpp"
 #include "scene/import.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

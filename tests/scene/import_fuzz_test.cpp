@@ -3,7 +3,7 @@
 #include "sample_files.hpp"
 #include "scene/import.hpp"
 #include "scene/patch_mesh.hpp"
-#include "temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
