@@ -66,6 +66,7 @@ class RowClosedOperator final : public LinearOperator {
     return bytes;
   }
   std::string describe() const override { return closed_spec(*approximation_, "closure=rows"); }
+  double product_roundoff() const override { return approximation_->product_roundoff(); }
   std::string remark() const override {
     if (empty_rows_ == 0) return {};
     return fmt::format("{} rows have no positive sum and cannot be closed by scaling", empty_rows_);
@@ -88,6 +89,7 @@ class RowClosedOperator final : public LinearOperator {
 class ClosedKernelOperator : public KernelOperator {
  public:
   std::string describe() const final { return closed_spec(*approximation_, keys_); }
+  double product_roundoff() const final { return approximation_->product_roundoff(); }
 
  protected:
   ClosedKernelOperator(std::unique_ptr<KernelOperator> approximation, std::string keys,
@@ -209,8 +211,9 @@ std::unique_ptr<KernelOperator> as_kernel(std::unique_ptr<LinearOperator> transp
   if (kernel == nullptr || !transport->symmetric())
     fail<UsageError>("{} needs a symmetric kernel, which {} is not: use closure=rows or none", why,
                      transport->describe());
-  transport.release();
-  return std::unique_ptr<KernelOperator>(kernel);
+  std::unique_ptr<KernelOperator> owned(kernel);
+  static_cast<void>(transport.release());
+  return owned;
 }
 
 void require_true_kernel(const FormFactors& form_factors, const std::string& why) {

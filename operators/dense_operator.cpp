@@ -40,6 +40,7 @@ class DenseKernelOperator final : public KernelOperator {
              {"diagonals", diagonal_bytes(size(), channels())}}};
   }
   std::string describe() const override { return storage_spec<Scalar>("dense"); }
+  double product_roundoff() const override { return std::is_same_v<Scalar, double> ? 0x1p-53 : 0x1p-24; }
 
   Certificate certificate() const override {
     const AbsoluteSums kernel = absolute_sums(*kernel_, root_area());
@@ -68,6 +69,7 @@ class DenseMatrixOperator final : public MatrixOperator {
     return {{{"entries", matrix_->entry_bytes()}, {"diagonals", diagonal_bytes(size(), channels())}}};
   }
   std::string describe() const override { return storage_spec<Scalar>("dense"); }
+  double product_roundoff() const override { return std::is_same_v<Scalar, double> ? 0x1p-53 : 0x1p-24; }
 
   Certificate certificate() const override {
     const AbsoluteSums rows = absolute_sums(*matrix_, Eigen::VectorXd::Ones(size()));

@@ -66,6 +66,11 @@ class LinearOperator {
 
   virtual Certificate certificate() const { return {}; }
 
+  /// Unit roundoff of the arithmetic of its products: what repeats of it differ by if sums are done in
+  /// another order, relative to |A| |X|. 2^-24 where entries multiply in float32. No solver gets a residual
+  /// below it.
+  virtual double product_roundoff() const { return 0x1p-53; }
+
   /// What who reads its results should know ("no symmetric scaling exists; ..."); empty if there is nothing.
   virtual std::string remark() const { return {}; }
 

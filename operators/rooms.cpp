@@ -137,6 +137,7 @@ Rooms divide_rooms(const FormFactors& form_factors, const Rooms& rooms, int coun
     if (room >= 0) members[static_cast<std::size_t>(room)].push_back(i);
   }
   std::vector<PatchSet> sets;
+  sets.reserve(static_cast<std::size_t>(std::max(count, rooms.count)));
   for (std::vector<Index>& patches : members) sets.push_back(patch_set(std::move(patches), area));
   while (static_cast<int>(sets.size()) < count) {
     const auto largest = std::max_element(sets.begin(), sets.end(), [](const PatchSet& a, const PatchSet& b) {

@@ -51,6 +51,7 @@ CompressedSolution::CompressedSolution(const SolverProblem& problem, const std::
 Field CompressedSolution::operator()(const Field& residuals, const std::vector<Index>& channel,
                                      const Field& root_reflectance) const {
   std::vector<InnerSolution> inner;
+  inner.reserve(static_cast<std::size_t>(residuals.cols()));
   for (Index c = 0; c < residuals.cols(); ++c) inner.emplace_back(residuals.col(c));
   for (int step = 0; step < most_inner_steps; ++step) {
     std::vector<std::size_t> open;

@@ -69,11 +69,13 @@ void ConjugateGradients::evaluate(Index j, const Eigen::VectorXd& kernel_product
   // A second start from here is a residual correction: worth while as long as it gains something.
   const bool gained = !column.evaluated || accepted_residual(j) < 0.5 * before;
   column.fruitless_evaluations = gained ? 0 : column.fruitless_evaluations + 1;
-  if (column.fruitless_evaluations >= 2) fail_as_stagnated(j);
   column.evaluated = true;
   residual_.col(j) = scattered - solution_.col(j);
-  if (residual_.col(j).isZero(0))
-    fail_as_stagnated(j);  // only rounding is left, and the tolerance is below it
+  // No residual at all: only rounding is left, and the tolerance is below it.
+  if (column.fruitless_evaluations >= 2 || residual_.col(j).isZero(0)) {
+    end_stagnated(j);
+    return;
+  }
   column.curvature = 0;
   column.smallest_residual = defect_norm;
   column.steps_without_progress = 0;

@@ -79,7 +79,7 @@ void GaussSeidel::check(const std::vector<Index>& columns) {
     accept_residual(j, norm);
     int& failures = failed_checks_[static_cast<std::size_t>(j)];
     failures = accepted_residual(j) < before ? 0 : failures + 1;
-    if (failures >= 10) fail_as_stagnated(j);
+    if (failures >= 10) end_stagnated(j);
   }
 }
 

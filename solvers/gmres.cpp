@@ -59,7 +59,10 @@ void Gmres::evaluate(Index j, const Eigen::VectorXd& product) {
   if (small_enough(j, norm)) return;
   // A slow cycle may be honest with a short restart; two that gain nothing are not.
   column.fruitless_restarts = accepted_residual(j) < 0.9999 * before ? 0 : column.fruitless_restarts + 1;
-  if (column.fruitless_restarts >= 2) fail_as_stagnated(j);
+  if (column.fruitless_restarts >= 2) {
+    end_stagnated(j);
+    return;
+  }
   column.origin = root_area().cwiseProduct(radiosity().col(j));
   restart(column, residual);
 }

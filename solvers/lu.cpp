@@ -63,7 +63,7 @@ void Lu::advance() {
     const double before = accepted_residual(j);
     const double norm = residuals_.col(j).norm();
     accept_residual(j, norm);
-    if (!small_enough(j, norm) && steps_ > 0 && accepted_residual(j) > 0.5 * before) fail_as_stagnated(j);
+    if (!small_enough(j, norm) && steps_ > 0 && accepted_residual(j) > 0.5 * before) end_stagnated(j);
   }
   ++steps_;
 }

@@ -37,7 +37,10 @@ void Neumann::advance() {
     const double residual_norm = root_area().cwiseProduct(next - radiosity().col(j)).norm();
     accept_residual(j, residual_norm);
     if (small_enough(j, residual_norm)) continue;
-    if (overdue) fail_as_stagnated(j);
+    if (overdue) {
+      end_stagnated(j);
+      continue;
+    }
     mutable_radiosity().col(j) = next;
   }
 }

@@ -19,8 +19,10 @@ namespace radiosity {
 ///   const Field& B = solver->radiosity();   // usable after every step
 ///
 /// Every solver stops on the relative residual ||E - (I - T) B|| / ||E|| of the area norm, computed (not
-/// recurred) before it says that it has converged. What it cannot solve it refuses with an Error: a singular
-/// system (rho = 1 in a closed room), a diverging iteration, a budget that would be exceeded.
+/// recurred) before it says that it has converged. With an operator that multiplies in float32 it also ends
+/// where rounding lets the residual fall no further (LinearOperator::product_roundoff): residual() tells.
+/// What it cannot solve it refuses with an Error: a singular system (rho = 1 in a closed room), a diverging
+/// iteration, a budget that would be exceeded.
 class Solver {
  public:
   virtual ~Solver() = default;

@@ -142,10 +142,15 @@ void SteppedSolver::fail_as_singular() const {
       name_);
 }
 
-void SteppedSolver::fail_as_stagnated(Index column) const {
+void SteppedSolver::end_stagnated(Index column) {
   const double radiosity_norm = root_area().cwiseProduct(radiosity_.col(column)).norm();
   const double by_rounding = unit_roundoff * radiosity_norm / emission_norms_[column];
+  const double by_products = transport().product_roundoff() * radiosity_norm / emission_norms_[column];
   const double reached = relative_residuals_[column];
+  if (by_products > by_rounding && reached <= 8 * by_products) {
+    std::erase(open_, column);
+    return;
+  }
   if (reached <= 1e3 * by_rounding)
     fail(
         "{}: the relative residual stays at {:.3g}, which is all that double precision gives for this nearly "

@@ -75,9 +75,11 @@ class SteppedSolver : public Solver {
 
   [[noreturn]] void fail_as_singular() const;
 
-  /// For an iteration that gets no closer: by rounding if that explains the residual, else as singular or
-  /// stagnated.
-  [[noreturn]] void fail_as_stagnated(Index column) const;
+  /// For an iteration that gets no closer. An operator that multiplies in float32 and has brought the
+  /// residual down to 8 u ||B||_A, u its roundoff, has given all that it can: the column closes, and
+  /// residual() says where it stands. Otherwise throws Error: for rounding if that explains the residual,
+  /// else as singular or stagnated.
+  void end_stagnated(Index column);
 
  private:
   void refuse_room_without_absorption() const;
