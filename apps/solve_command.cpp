@@ -11,6 +11,7 @@
 #include "apps/terminal_monitor.hpp"
 #include "experiments/lights.hpp"
 #include "foundation/error.hpp"
+#include "foundation/npy.hpp"
 #include "foundation/parallel.hpp"
 #include "render/reference_comparison.hpp"
 #include "render/write_solution.hpp"
@@ -34,6 +35,7 @@ struct SolveOptions {
   RunOptions run;
   std::string lights;
   bool no_certificate = false;
+  std::filesystem::path error_bounds_file;
   bool reference = false;
   PathTracingOptions paths;
   PictureOptions picture;
@@ -47,6 +49,7 @@ void check_outputs(const SolveOptions& options) {
     require_writable(output);
   }
   require_writable(options.json_file);
+  require_writable(options.error_bounds_file, ".npy");
   require_writable(options.form_factors.save_file);
 }
 
@@ -79,6 +82,9 @@ void run_solve(SolveOptions options, const Program& program) {
     if (const auto certifier = Certifier::make(form_factors, options.run.seed))
       report.certificate = certifier->certify(emission, report.solution.radiosity);
   }
+  Field error_bounds;
+  if (!options.error_bounds_file.empty())
+    error_bounds = bound_patch_errors(form_factors, emission, report.solution.radiosity);
   report.groups = summarize_groups(*mesh, report.solution.radiosity);
   if (options.reference) {
     PatchMesh lit = *mesh;
@@ -91,6 +97,7 @@ void run_solve(SolveOptions options, const Program& program) {
   if (!form_factors.quality.closure_note.empty()) notes.push_back(form_factors.quality.closure_note);
   for (const std::filesystem::path& output : options.outputs)
     notes.push_back(write_solution(output, *mesh, report.solution.radiosity, options.picture, monitor));
+  if (!options.error_bounds_file.empty()) write_npy(options.error_bounds_file, error_bounds);
   if (!options.json_file.empty()) write_solution_json(options.json_file, form_factors, report);
   monitor.clear();
   print_solution(form_factors, report);
@@ -133,6 +140,10 @@ void add_solve_command(CLI::App& app, const Program& program) {
       ->option_text("PIXELS");
   command->add_flag("--interpolate", options->picture.interpolate,
                     "shade the picture smoothly in place of flat patches");
+  command
+      ->add_option("--error-bounds", options->error_bounds_file,
+                   "write a proved bound on the error of each patch's radiosity, for this F")
+      ->option_text("FILE.npy");
   command->add_flag("--no-certificate", options->no_certificate,
                     "do not bound the error of B, which takes some products with the true kernel");
   command->add_flag("--reference", options->reference,

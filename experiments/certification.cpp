@@ -1,6 +1,8 @@
 #include "experiments/certification.hpp"
 
+#include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
+#include "solvers/patch_error_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +20,16 @@ void take_ratio(CertificateSummary& summary, double ratio) {
 }
 
 }  // namespace
+
+Field bound_patch_errors(const FormFactors& form_factors, const Field& emission, const Field& radiosity) {
+  if (!form_factors.symmetric())
+    fail<UsageError>(
+        "error bounds need a symmetric kernel, which form factors by '{}' do not have: use --form-factors "
+        "accurate or one-ray",
+        form_factors.quality.method);
+  const auto transport = cpu_operators().make("dense", form_factors);
+  return patch_error_bounds(dynamic_cast<const KernelOperator&>(*transport), emission, radiosity);
+}
 
 Certifier::Certifier(const FormFactors& form_factors, std::uint64_t seed)
     : transport_(cpu_operators().make("dense", form_factors)) {

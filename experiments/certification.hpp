@@ -20,6 +20,10 @@ struct CertificateSummary {
   std::optional<double> ratio_max;
 };
 
+/// |B_ij - B~_ij| <= the result, n x c, with the true kernel (solvers/patch_error_bounds.hpp). Throws
+/// UsageError where form factors have no symmetric kernel.
+Field bound_patch_errors(const FormFactors& form_factors, const Field& emission, const Field& radiosity);
+
 /// Certifies answers against assembled form factors; null where these have no symmetric kernel.
 class Certifier {
  public:

@@ -110,6 +110,21 @@ TEST(Solve, TakesItsMaterialsFromTheCommandLine) {
   EXPECT_GT(B(0, 1), B(0, 2));
 }
 
+TEST(Solve, WritesBoundsOnTheErrorOfEachPatch) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& tolerance, const std::string& stem) {
+    succeed({"solve", "cornell-box", "--patches", "150", "--tolerance", tolerance, "-o", stem + ".npy",
+             "--error-bounds", stem + "-bounds.npy"},
+            folder);
+    return read_npy(folder.path() / (stem + ".npy"));
+  };
+  const Eigen::MatrixXd rough = run("1e-3", "rough");
+  const Eigen::MatrixXd errors = (rough - run("1e-12", "fine")).cwiseAbs();
+  const Eigen::MatrixXd bounds = read_npy(folder.path() / "rough-bounds.npy");
+  EXPECT_GE((bounds - errors).minCoeff(), 0);
+  EXPECT_LT(bounds.norm(), 100 * errors.norm());
+}
+
 TEST(Solve, SetsOfGroupsAndLightsAgree) {
   const TemporaryFolder folder;
   const std::string dark = succeed({"solve", "cube", "--set", "ceiling:emission=0"}, folder);

@@ -1,6 +1,8 @@
 #include "exact_rooms.hpp"
+#include "foundation/error.hpp"
 #include "foundation/random.hpp"
 #include "solvers/error_certificate.hpp"
+#include "solvers/patch_error_bounds.hpp"
 #include "solvers/solver_registry.hpp"
 
 #include <Eigen/LU>
@@ -124,6 +126,31 @@ TEST(ErrorCertificate, RefusesWrongShapes) {
   const ErrorCertificate certificate(truth);
   EXPECT_THROW(certificate.bound(Field::Ones(9, 1), Field::Ones(9, 1)), UsageError);
   EXPECT_THROW(certificate.bound(Field::Ones(10, 1), Field::Ones(10, 2)), UsageError);
+}
+
+TEST(PatchErrorBounds, HoldOnEveryPatch) {
+  for (const double reflectance : {0.5, 0.9, 0.99}) {
+    const Room chain = chained_rooms(2, 40, 0.02, 8, reflectance);
+    const RoomKernel truth(chain);
+    const Trials trials = draw_trials(chain, 60, 9);
+    const Field bounds = patch_error_bounds(truth, trials.emission, trials.answers);
+    const Field errors = (trials.answers - trials.truth).cwiseAbs();
+    EXPECT_GE((bounds - errors).minCoeff(), 0) << reflectance;
+    // Without its sign a residual may count as often as light goes round, but no more.
+    EXPECT_LE(bounds.norm(), 3 / (1 - reflectance) * errors.norm()) << reflectance;
+    // Half of the bounds would not hold everywhere: the check can fail.
+    const Field direct = patch_error_bounds(truth, trials.emission, Field(trials.truth * 0.9));
+    EXPECT_LT((0.5 * direct - 0.1 * trials.truth).minCoeff(), 0);
+  }
+}
+
+TEST(PatchErrorBounds, RefuseWhatHasNone) {
+  const Room room = closed_room(20, 3, 1);
+  EXPECT_THROW(patch_error_bounds(RoomKernel(room), Field::Ones(20, 1), Field::Ones(20, 1)), Error);
+  EXPECT_THROW(patch_error_bounds(RoomKernel(room), Field::Ones(19, 1), Field::Ones(20, 1)), UsageError);
+  Room black = closed_room(20, 3, 0);
+  const Field error = patch_error_bounds(RoomKernel(black), Field::Ones(20, 1), Field::Zero(20, 1));
+  EXPECT_GE(error.minCoeff(), 1);
 }
 
 }  // namespace
