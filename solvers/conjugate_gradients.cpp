@@ -106,6 +106,7 @@ void ConjugateGradients::renew_directions(const std::vector<Index>& columns) {
   Field improved = residual_(Eigen::all, columns);
   if (preconditioner_) {
     std::vector<Index> channel;
+    channel.reserve(columns.size());
     for (const Index j : columns) channel.push_back(j % channels());
     improved = (*preconditioner_)(improved, channel, root_reflectance_);
   }
