@@ -165,7 +165,7 @@ class Contest {
     std::vector<std::string> all;
     for (const OperatorEntry& entry : registry.entries()) {
       all.push_back(entry.defaults);
-      if (entry.name == "dense") all.insert(all.end(), {"dense:f32", "dense:f16"});
+      all.insert(all.end(), entry.variants.begin(), entry.variants.end());
     }
     return all;
   }
@@ -283,7 +283,7 @@ void print_apply_benchmark(const std::vector<ApplyBenchmark>& results, std::ostr
                "n = {}, {} thread{}, {} repetitions, load {:.1f} to {:.1f}, read bandwidth {:.1f} GB/s\n",
                result.size, result.threads, result.threads == 1 ? "" : "s", result.repetitions,
                result.load_before, result.load_after, result.read_bandwidth_gb_s);
-    fmt::print(out, "  {:<16} {:>7} {:>9} {:>9} {:>9} {:>14} {:>14}\n", "product", "columns", "MB", "min ms",
+    fmt::print(out, "  {:<18} {:>7} {:>9} {:>9} {:>9} {:>14} {:>14}\n", "product", "columns", "MB", "min ms",
                "median ms", "of bandwidth", "x sgemv/column");
     for (const ApplyBenchmarkRow& row : result.rows)
       fmt::print(out, "  {:<16} {:>7} {:>9.1f} {:>9.2f} {:>9.2f} {:>14.2f} {:>14.2f}\n", row.name,

@@ -2,6 +2,7 @@
 
 #include "kernels/csr_matrix.hpp"
 #include "kernels/instruction_set.hpp"
+#include "kernels/quantized_tiles.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
 
@@ -21,6 +22,11 @@ void multiply(const SymmetricTiles<double>& K, const ConstFieldRef& X, FieldRef 
 void multiply(const SymmetricTiles<float>& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
 void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+
+/// The same for a quantized matrix, with u of float: each tile is decoded into the first cache, where it
+/// serves all columns.
+void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
 
 /// Y = M X and Y = M' X for a full matrix stored by rows, m x n. Same promises.

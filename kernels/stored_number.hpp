@@ -2,6 +2,7 @@
 
 #include "kernels/half.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -49,7 +50,8 @@ template <typename Scalar>
 double storage_scale(double largest) {
   if (std::is_same_v<Scalar, double> || largest == 0) return 1;
   const int top = std::is_same_v<Scalar, Half> ? 15 : 0;  // largest / s lies in [2^(top - 1), 2^top)
-  return std::ldexp(1.0, std::ilogb(largest) + 1 - top);
+  // Below 2^-1000 the inverse of the scale would overflow.
+  return std::ldexp(1.0, std::max(std::ilogb(largest) + 1 - top, -1000));
 }
 
 }  // namespace radiosity

@@ -3,9 +3,12 @@
 #include "kernels/partial_sums.hpp"
 #include "kernels/product_shapes.hpp"
 #include "kernels/products.hpp"
+#include "kernels/tile_decoders.hpp"
 #include "kernels/tile_products.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 namespace radiosity {
 namespace {
@@ -17,8 +20,7 @@ constexpr std::ptrdiff_t bytes_ahead = 8192;
 
 /// Cuts the tile rows into chunks of about equal numbers of tiles; chunk k is the tile rows result[k] ...
 /// result[k + 1] - 1. Depends on the matrix only, never on threads: it decides the order of the sums.
-template <typename Scalar>
-std::vector<Index> split_tile_rows(const SymmetricTiles<Scalar>& K) {
+std::vector<Index> split_tile_rows(const TileDirectory& K) {
   constexpr Index tiles_worth_a_chunk = 64;  // below, partial sums cost more than a thread gains
   constexpr Index most_chunks = 64;
   const Index chunks = std::clamp<Index>(K.tile_count() / tiles_worth_a_chunk, 1, most_chunks);
@@ -29,44 +31,84 @@ std::vector<Index> split_tile_rows(const SymmetricTiles<Scalar>& K) {
   return begin;
 }
 
+/// Where the entries of a tile are: in memory as they are multiplied.
 template <typename Scalar>
+struct StoredSource {
+  using Entry = Scalar;
+  static constexpr Index panel_entries = 0;
+  static constexpr bool whole_diagonal = true;  ///< a tile on the diagonal keeps both halves
+
+  const SymmetricTiles<Scalar>& K;
+
+  const Entry* read(Index tile, Entry*) const { return K.tile_data(tile); }
+  static const char* prefetch(const Entry* entries) {
+    return reinterpret_cast<const char*>(entries) + bytes_ahead;
+  }
+};
+
+/// ... or decoded into a panel that stays in the first cache.
+struct QuantizedSource {
+  using Entry = float;
+  static constexpr Index panel_entries = QuantizedTiles::tile_entries;
+  static constexpr bool whole_diagonal = false;
+
+  const QuantizedTiles& K;
+  TileDecoder decoder;
+
+  const Entry* read(Index tile, Entry* panel) const {
+    if (decoder == nullptr)
+      std::fill(panel, panel + panel_entries, 0.0F);
+    else
+      decoder(K.record(tile), K.record(tile) + bytes_ahead, panel);
+    const std::uint16_t* position = K.exact_position().data();
+    const float* value = K.exact_value().data();
+    const std::size_t end = K.exact_begin(tile + 1);
+    for (std::size_t k = K.exact_begin(tile); k < end; ++k) panel[position[k]] = value[k];
+    return panel;
+  }
+  static const char* prefetch(const Entry*) { return nullptr; }
+};
+
+template <typename Source>
 class SymmetricProduct {
  public:
-  using Number = typename Multiplier<Scalar>::Type;
+  using Entry = typename Source::Entry;
+  using Number = typename Multiplier<Entry>::Type;
 
-  SymmetricProduct(const SymmetricTiles<Scalar>& K, const BlockedField<Number>& X, PartialSums& sums,
-                   const TileProducts<Scalar>& products)
-      : K_(K), X_(X), sums_(sums), products_(products) {}
+  SymmetricProduct(const TileDirectory& directory, const Source& source, const BlockedField<Number>& X,
+                   PartialSums& sums, const TileProducts<Entry>& products)
+      : directory_(directory), source_(source), X_(X), sums_(sums), products_(products) {}
 
   void multiply_rows(Index chunk, Index first_row, Index last_row) {
     sums_.start(chunk);
-    const AlignedBuffer<Number> lanes(static_cast<std::size_t>(column_groups() * row_lanes_size<Scalar>));
+    const AlignedBuffer<Number> lanes(static_cast<std::size_t>(column_groups() * row_lanes_size<Entry>));
+    const AlignedBuffer<Entry> panel(static_cast<std::size_t>(Source::panel_entries));
     for (Index I = first_row; I < last_row; ++I)
-      for (Index tile = K_.row_begin(I); tile < K_.row_begin(I + 1); ++tile)
-        multiply_tile(chunk, I, tile, lanes.data());
+      for (Index tile = directory_.row_begin(I); tile < directory_.row_begin(I + 1); ++tile)
+        multiply_tile(chunk, I, tile, source_.read(tile, panel.data()), lanes.data());
   }
 
  private:
   Index column_groups() const {
-    return (X_.columns() + TileProducts<Scalar>::most_columns - 1) / TileProducts<Scalar>::most_columns;
+    return (X_.columns() + TileProducts<Entry>::most_columns - 1) / TileProducts<Entry>::most_columns;
   }
 
   /// Whether the tiles number `tile` and `tile` + 1 of tile row I are in one run of the sums along rows.
   bool in_one_run(Index I, Index tile) const {
-    return tile >= K_.row_begin(I) && tile + 1 < K_.row_begin(I + 1) &&
-           K_.tile_column(tile) / tiles_together == K_.tile_column(tile + 1) / tiles_together;
+    return tile >= directory_.row_begin(I) && tile + 1 < directory_.row_begin(I + 1) &&
+           directory_.tile_column(tile) / tiles_together == directory_.tile_column(tile + 1) / tiles_together;
   }
 
-  void multiply_tile(Index chunk, Index I, Index tile, Number* lanes) {
-    const Index J = K_.tile_column(tile);
+  void multiply_tile(Index chunk, Index I, Index tile, const Entry* entries, Number* lanes) {
+    const Index J = directory_.tile_column(tile);
     const bool first = !in_one_run(I, tile - 1);
     const bool last = !in_one_run(I, tile);
     for (Index c = 0; c < X_.columns(); c += products_.most_columns) {
       const Index columns = std::min<Index>(products_.most_columns, X_.columns() - c);
-      TileTask<Scalar> task;
-      task.entries = K_.tile_data(tile);
-      if (c == 0) task.prefetch = reinterpret_cast<const char*>(task.entries) + bytes_ahead;
-      task.row_lanes = lanes + c / products_.most_columns * row_lanes_size<Scalar>;
+      TileTask<Entry> task;
+      task.entries = entries;
+      if (c == 0) task.prefetch = Source::prefetch(entries);
+      task.row_lanes = lanes + c / products_.most_columns * row_lanes_size<Entry>;
       task.first = first;
       task.last = last;
       task.x_columns = X_.block(J) + 64 * c;
@@ -75,49 +117,62 @@ class SymmetricProduct {
       task.x_rows = X_.block(I) + 64 * c;
       task.x_rows_scale = X_.scale(I) + c;
       task.y_columns = sums_.block(chunk, J) + 64 * c;
-      const auto& products = I == J ? products_.to_rows : products_.both;
+      const auto& products = I == J && Source::whole_diagonal ? products_.to_rows : products_.both;
       products[static_cast<std::size_t>(columns - 1)](task);
     }
   }
 
-  const SymmetricTiles<Scalar>& K_;
+  const TileDirectory& directory_;
+  const Source& source_;
   const BlockedField<Number>& X_;
   PartialSums& sums_;
-  const TileProducts<Scalar>& products_;
+  const TileProducts<Entry>& products_;
 };
 
-template <typename Scalar>
-void multiply_symmetric(const SymmetricTiles<Scalar>& K, const ConstFieldRef& X, FieldRef Y,
-                        InstructionSet instructions) {
-  check_product_shapes(K.size(), K.size(), X, Y);
-  const TileProducts<Scalar> products = tile_products<Scalar>(instructions);
-  std::vector<Index> rows = split_tile_rows(K);
-  std::vector<Index> first_block(rows.begin(), rows.end() - 1);
+template <typename Source>
+void multiply_symmetric(const TileDirectory& directory, const Source& source, double scale,
+                        const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
+  using Entry = typename Source::Entry;
+  check_product_shapes(directory.size(), directory.size(), X, Y);
+  const TileProducts<Entry> products = tile_products<Entry>(instructions);
+  const std::vector<Index> rows = split_tile_rows(directory);
+  const std::vector<Index> first_block(rows.begin(), rows.end() - 1);
   for (Index first = 0; first < X.cols(); first += columns_at_once) {
     const Index columns = std::min(columns_at_once, X.cols() - first);
-    const BlockedField<typename Multiplier<Scalar>::Type> blocked(X, first, columns);
+    const BlockedField<typename Multiplier<Entry>::Type> blocked(X, first, columns);
     PartialSums sums(blocked.blocks(), columns, first_block);
-    SymmetricProduct<Scalar> product(K, blocked, sums, products);
+    SymmetricProduct<Source> product(directory, source, blocked, sums, products);
     parallel_for(first_block.size(), [&](std::size_t chunk) {
       product.multiply_rows(static_cast<Index>(chunk), rows[chunk], rows[chunk + 1]);
     });
-    sums.finish(K.scale(), first, Y);
+    sums.finish(scale, first, Y);
   }
+}
+
+template <typename Scalar>
+void multiply_stored(const SymmetricTiles<Scalar>& K, const ConstFieldRef& X, FieldRef Y,
+                     InstructionSet instructions) {
+  multiply_symmetric(K.directory(), StoredSource<Scalar>{K}, K.scale(), X, Y, instructions);
 }
 
 }  // namespace
 
 void multiply(const SymmetricTiles<double>& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions) {
-  multiply_symmetric(K, X, Y, instructions);
+  multiply_stored(K, X, Y, instructions);
 }
 void multiply(const SymmetricTiles<float>& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions) {
-  multiply_symmetric(K, X, Y, instructions);
+  multiply_stored(K, X, Y, instructions);
 }
 void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions) {
-  multiply_symmetric(K, X, Y, instructions);
+  multiply_stored(K, X, Y, instructions);
+}
+
+void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
+  const TileDecoder decoder = K.bits() == 0 ? nullptr : tile_decoder(instructions, K.bits(), K.block());
+  multiply_symmetric(K.directory(), QuantizedSource{K, decoder}, K.scale(), X, Y, instructions);
 }
 
 }  // namespace radiosity

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace radiosity {
 namespace {
@@ -34,29 +35,13 @@ double largest_stored(const SymmetricTiles<Scalar>& tiles) {
 }  // namespace
 
 template <typename Scalar>
-SymmetricTiles<Scalar>::SymmetricTiles(Index size, const std::function<bool(Index, Index)>& present)
-    : size_(size) {
-  if (size < 0) fail<UsageError>("a kernel of size {} does not exist", size);
-  row_begin_.push_back(0);
-  for (Index I = 0; I < tile_rows(); ++I) {
-    for (Index J = I; J < tile_rows(); ++J)
-      if (present(I, J)) columns_.push_back(static_cast<std::int32_t>(J));
-    row_begin_.push_back(tile_count());
-  }
+SymmetricTiles<Scalar>::SymmetricTiles(TileDirectory directory) : directory_(std::move(directory)) {
   entries_.reset(static_cast<Scalar*>(allocate_zeroed(entry_bytes())));
 }
 
 template <typename Scalar>
 void SymmetricTiles<Scalar>::Release::operator()(Scalar* entries) const {
   release_aligned(entries);
-}
-
-template <typename Scalar>
-Index SymmetricTiles<Scalar>::find_tile(Index tile_row, Index tile_column) const {
-  const auto begin = columns_.begin() + row_begin(tile_row);
-  const auto end = columns_.begin() + row_begin(tile_row + 1);
-  const auto found = std::lower_bound(begin, end, static_cast<std::int32_t>(tile_column));
-  return found != end && *found == tile_column ? found - columns_.begin() : -1;
 }
 
 template <typename Scalar>
@@ -70,19 +55,14 @@ double SymmetricTiles<Scalar>::operator()(Index i, Index j) const {
 template <typename Scalar>
 void SymmetricTiles<Scalar>::set(Index i, Index j, Scalar value) {
   if (i > j) std::swap(i, j);
-  if (i < 0 || j >= size_)
-    throw std::out_of_range(fmt::format("entry ({}, {}) is outside a kernel of size {}", i, j, size_));
+  if (i < 0 || j >= size())
+    throw std::out_of_range(fmt::format("entry ({}, {}) is outside a kernel of size {}", i, j, size()));
   const Index tile = find_tile(i / tile_size, j / tile_size);
   if (tile < 0) throw std::out_of_range(fmt::format("entry ({}, {}) lies in a tile that is not kept", i, j));
   const Index r = i % tile_size;
   const Index c = j % tile_size;
   tile_data(tile)[r * tile_size + c] = value;
   if (i / tile_size == j / tile_size) tile_data(tile)[c * tile_size + r] = value;
-}
-
-template <typename Scalar>
-std::size_t SymmetricTiles<Scalar>::directory_bytes() const {
-  return row_begin_.size() * sizeof(Index) + columns_.size() * sizeof(std::int32_t);
 }
 
 template <typename Scalar>
@@ -95,7 +75,7 @@ SymmetricTiles<Scalar> SymmetricTiles<Scalar>::without_zero_tiles() const {
         kept[tile] = std::any_of(entries, entries + tile_entries, [](Scalar e) { return to_double(e) != 0; });
       },
       16);
-  SymmetricTiles copy(size_, [&](Index I, Index J) {
+  SymmetricTiles copy(size(), [&](Index I, Index J) {
     const Index tile = find_tile(I, J);
     return tile >= 0 && kept[static_cast<std::size_t>(tile)];
   });
@@ -109,7 +89,7 @@ SymmetricTiles<Scalar> SymmetricTiles<Scalar>::without_zero_tiles() const {
 
 template <typename To, typename From>
 SymmetricTiles<To> convert(const SymmetricTiles<From>& tiles) {
-  SymmetricTiles<To> result(tiles.size(), [&](Index I, Index J) { return tiles.find_tile(I, J) >= 0; });
+  SymmetricTiles<To> result(tiles.directory());
   // Between types of the same or growing range the stored numbers stay as they are.
   const double scale = sizeof(To) < sizeof(From) ? storage_scale<To>(largest_stored(tiles)) : 1.0;
   result.set_scale(tiles.scale() * scale);

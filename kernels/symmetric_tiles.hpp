@@ -1,18 +1,13 @@
 #pragma once
 
 #include "kernels/half.hpp"
-
-#include <Eigen/Core>
+#include "kernels/tile_directory.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <vector>
 
 namespace radiosity {
-
-using Index = Eigen::Index;
 
 /// A symmetric n x n matrix whose upper triangle is kept in square tiles; tiles that are zero are not kept at
 /// all. So a product reads half of the entries of a full matrix, and nothing where patches face away from
@@ -21,31 +16,31 @@ using Index = Eigen::Index;
 template <typename Scalar>
 class SymmetricTiles {
  public:
-  static constexpr Index tile_size = 64;
-  static constexpr Index tile_entries = tile_size * tile_size;
+  static constexpr Index tile_size = TileDirectory::tile_size;
+  static constexpr Index tile_entries = TileDirectory::tile_entries;
 
   /// A zero matrix with room for the tiles (I, J), I <= J < tile_rows, for which `present(I, J)` holds.
-  SymmetricTiles(Index size, const std::function<bool(Index, Index)>& present);
+  SymmetricTiles(Index size, const std::function<bool(Index, Index)>& present)
+      : SymmetricTiles(TileDirectory(size, present)) {}
+  explicit SymmetricTiles(TileDirectory directory);
 
-  Index size() const { return size_; }
-  Index tile_rows() const { return (size_ + tile_size - 1) / tile_size; }
-  Index tile_count() const { return static_cast<Index>(columns_.size()); }
+  const TileDirectory& directory() const { return directory_; }
+  Index size() const { return directory_.size(); }
+  Index tile_rows() const { return directory_.tile_rows(); }
+  Index tile_count() const { return directory_.tile_count(); }
+  Index row_begin(Index tile_row) const { return directory_.row_begin(tile_row); }
+  Index tile_column(Index tile) const { return directory_.tile_column(tile); }
+  Index find_tile(Index tile_row, Index tile_column) const {
+    return directory_.find_tile(tile_row, tile_column);
+  }
 
   double scale() const { return scale_; }
   void set_scale(double scale) { scale_ = scale; }
-
-  /// The tiles of tile row I are those numbered row_begin(I) ... row_begin(I + 1) - 1, with rising tile
-  /// column.
-  Index row_begin(Index tile_row) const { return row_begin_[static_cast<std::size_t>(tile_row)]; }
-  Index tile_column(Index tile) const { return columns_[static_cast<std::size_t>(tile)]; }
 
   /// 64 x 64 entries, row-major, 64-byte aligned: entry (r, c) of tile (I, J) is K(64 I + r, 64 J + c).
   /// A tile on the diagonal keeps both its halves.
   Scalar* tile_data(Index tile) { return entries_.get() + tile * tile_entries; }
   const Scalar* tile_data(Index tile) const { return entries_.get() + tile * tile_entries; }
-
-  /// The tile (I, J), I <= J, or -1 if it is not kept.
-  Index find_tile(Index tile_row, Index tile_column) const;
 
   /// scale() times the stored entry; 0 where no tile is kept. Any order of i and j.
   double operator()(Index i, Index j) const;
@@ -58,7 +53,7 @@ class SymmetricTiles {
   std::size_t entry_bytes() const {
     return static_cast<std::size_t>(tile_count() * tile_entries) * sizeof(Scalar);
   }
-  std::size_t directory_bytes() const;
+  std::size_t directory_bytes() const { return directory_.bytes(); }
 
   /// A copy without the tiles whose entries are all zero.
   SymmetricTiles without_zero_tiles() const;
@@ -68,10 +63,8 @@ class SymmetricTiles {
     void operator()(Scalar* entries) const;
   };
 
-  Index size_;
+  TileDirectory directory_;
   double scale_ = 1;
-  std::vector<Index> row_begin_;
-  std::vector<std::int32_t> columns_;
   std::unique_ptr<Scalar[], Release> entries_;
 };
 

@@ -4,8 +4,10 @@
 #include "foundation/error.hpp"
 #include "kernels/products.hpp"
 #include "operators/field_checks.hpp"
+#include "operators/kernel_error.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/reflectance.hpp"
+#include "operators/rounding_certificate.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -103,6 +105,22 @@ class ClosedKernelOperator : public KernelOperator {
   std::string keys_;
 };
 
+/// K~ itself, where its operator would be closed if the spec did not say otherwise.
+class UnclosedOperator final : public ClosedKernelOperator {
+ public:
+  UnclosedOperator(std::unique_ptr<KernelOperator> kernel, std::string keys, const FormFactors& form_factors)
+      : ClosedKernelOperator(std::move(kernel), std::move(keys), form_factors) {}
+
+  ByteCount bytes() const override { return approximation().bytes(); }
+  Certificate certificate() const override { return approximation().certificate(); }
+  std::string remark() const override { return approximation().remark(); }
+
+ protected:
+  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override {
+    approximation().apply_kernel(X, Y);
+  }
+};
+
 constexpr double row_sum_rounding = 1e-6;  // of row sums, where products are done in float
 
 /// D K~ D.
@@ -125,6 +143,18 @@ class ScaledKernelOperator final : public ClosedKernelOperator {
     return bytes;
   }
   std::string remark() const override { return scaling_.note; }
+
+  /// D T~ D - T = (D T~ D - T~) + (T~ - T), and the first is at most (2 e + e^2) ||T~|| with e = ||D - I||. D
+  /// multiplies rho(T~) by ||D||^2 at most, both being symmetric between R^{1/2}.
+  Certificate certificate() const override {
+    Certificate certificate = approximation().certificate();
+    const double change = size() == 0 ? 0 : (scaling_.factors.array() - 1).abs().maxCoeff();
+    const double growth = size() == 0 ? 1 : scaling_.factors.array().square().maxCoeff();
+    if (certificate.spectral_radius_bound) *certificate.spectral_radius_bound *= growth;
+    if (certificate.operator_error)
+      *certificate.operator_error += (2 * change + change * change) * (1 + *certificate.operator_error);
+    return certificate;
+  }
 
  protected:
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override {
@@ -153,6 +183,9 @@ class BlockClosedOperator final : public ClosedKernelOperator {
     defect_.resize(size(), rooms_.count);
     if (rooms_.count == 0 || size() == 0) return;
     multiply(*form_factors.kernel, P, defect_);
+    rounding_ = *approximation_certificate({0, form_factors.row_sums(), kernel_row_sums(approximation())},
+                                           2 * product_rounding<float>(size()), reflectance(), root_area())
+                     .operator_error;
     approximation().apply_kernel(P, approximate);
     defect_ -= approximate;
     coupling_ = P.transpose() * defect_;
@@ -164,6 +197,15 @@ class BlockClosedOperator final : public ClosedKernelOperator {
     const auto n = static_cast<std::size_t>(size()), m = static_cast<std::size_t>(rooms_.count);
     bytes.parts.emplace_back("closure", sizeof(double) * (n * m + m * m + m) + sizeof(int) * n);
     return bytes;
+  }
+
+  /// K^ - K = -Q (K - K~) Q is no larger than K - K~ (docs/theory.md, 4), but for the rounding of X, which
+  /// enters from either side. Entries may be negative: row sums bound no spectral radius.
+  Certificate certificate() const override {
+    Certificate certificate = approximation().certificate();
+    certificate.spectral_radius_bound.reset();
+    if (certificate.operator_error) *certificate.operator_error += rounding_;
+    return certificate;
   }
 
  protected:
@@ -193,6 +235,7 @@ class BlockClosedOperator final : public ClosedKernelOperator {
     return scale_.asDiagonal() * sums;
   }
 
+  double rounding_ = 0;  // of X, relative to ||T||
   Rooms rooms_;
   Eigen::VectorXd scale_;     // P_ir = scale_r A_i^{1/2} on room r
   Eigen::MatrixXd defect_;    // X, n x m
@@ -260,7 +303,7 @@ ClosureChoice ClosureChoice::take(Spec& spec, const std::string& fallback) {
   else if (kind != "none")
     fail<UsageError>("'{}': closure={} is none of none, rows, symmetric, blocks, automatic", spec.text(),
                      kind);
-  if (choice.kind != OperatorClosure::none) choice.text = "closure=" + kind;
+  if (kind != fallback || kind != "none") choice.text = "closure=" + kind;
   if (choice.kind == OperatorClosure::blocks) {
     choice.blocks = spec.text("blocks", "rooms");
     check_blocks(choice.blocks, spec.text());
@@ -272,18 +315,25 @@ ClosureChoice ClosureChoice::take(Spec& spec, const std::string& fallback) {
 std::unique_ptr<LinearOperator> close_operator(std::unique_ptr<LinearOperator> approximation,
                                                const ClosureChoice& choice, const FormFactors& form_factors) {
   OperatorClosure kind = choice.kind;
+  std::string keys = choice.text;
   Rooms rooms;
-  if (kind == OperatorClosure::automatic) kind = choose_closure(*approximation, form_factors, rooms);
-  if (kind == OperatorClosure::none) return approximation;
+  if (kind == OperatorClosure::automatic) {
+    kind = choose_closure(*approximation, form_factors, rooms);
+    keys = kind == OperatorClosure::blocks ? "closure=blocks" : "closure=symmetric";
+  }
+  if (kind == OperatorClosure::none) {
+    if (choice.text != "closure=none" || !approximation->symmetric()) return approximation;
+    return std::make_unique<UnclosedOperator>(as_kernel(std::move(approximation), choice.text), choice.text,
+                                              form_factors);
+  }
   if (kind == OperatorClosure::rows)
     return std::make_unique<RowClosedOperator>(std::move(approximation), form_factors);
-  require_true_kernel(form_factors, choice.text);
-  auto kernel = as_kernel(std::move(approximation), choice.text);
+  require_true_kernel(form_factors, keys);
+  auto kernel = as_kernel(std::move(approximation), keys);
   if (kind == OperatorClosure::symmetric)
-    return std::make_unique<ScaledKernelOperator>(std::move(kernel), choice.text, form_factors);
+    return std::make_unique<ScaledKernelOperator>(std::move(kernel), keys, form_factors);
   if (rooms.of_patch.empty()) rooms = chosen_rooms(choice, form_factors);
-  return std::make_unique<BlockClosedOperator>(std::move(kernel), choice.text, form_factors,
-                                               std::move(rooms));
+  return std::make_unique<BlockClosedOperator>(std::move(kernel), keys, form_factors, std::move(rooms));
 }
 
 }  // namespace radiosity

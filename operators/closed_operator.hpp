@@ -29,7 +29,7 @@ enum class OperatorClosure { none, rows, symmetric, blocks, automatic };
 struct ClosureChoice {
   OperatorClosure kind = OperatorClosure::none;
   std::string blocks = "rooms";  ///< rooms, groups, or a number of sets
-  std::string text;              ///< the keys as a spec has them: "closure=blocks,blocks=24"; empty for none
+  std::string text;  ///< the keys as a spec has them: "closure=blocks,blocks=24"; empty for none by default
 
   /// Takes its keys from `spec`; throws UsageError for values that it does not know.
   static ClosureChoice take(Spec& spec, const std::string& fallback = "none");

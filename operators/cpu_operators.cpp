@@ -1,14 +1,36 @@
 #include "operators/csr_operator.hpp"
 #include "operators/dense_operator.hpp"
 #include "operators/operator_registry.hpp"
+#include "operators/quantized_operator.hpp"
+#include "operators/topk_operator.hpp"
 
 namespace radiosity {
 
 OperatorRegistry cpu_operators() {
   return OperatorRegistry({
-      {"dense", "every entry of the kernel, as f64, f32 or f16", "dense:f64", make_dense_operator},
-      {"csr", "the entries that are not zero, as f64 or f32, by compressed rows", "csr:f64",
-       make_csr_operator},
+      {.name = "dense",
+       .summary = "every entry of the kernel, as f64, f32 or f16",
+       .defaults = "dense:f64",
+       .make = make_dense_operator,
+       .variants = {"dense:f32", "dense:f16"}},
+      {.name = "csr",
+       .summary = "the entries that are not zero, as f64 or f32, by compressed rows",
+       .defaults = "csr:f64",
+       .make = make_csr_operator,
+       .variants = {"csr:f32"}},
+      {.name = "quantized",
+       .summary = "the kernel in codes of 8, 4 or 2 bits, and its entries that matter most in float32",
+       .defaults = "quantized:bits=4,block=32,exact=0.01,diffusion=1",
+       .make = make_quantized_operator,
+       .closure = "automatic",
+       .lossy = true,
+       .variants = {"quantized:bits=8", "quantized:bits=2"}},
+      {.name = "topk",
+       .summary = "the largest entries of the kernel in float32, the others dropped",
+       .defaults = "topk:fraction=0.1",
+       .make = make_topk_operator,
+       .closure = "automatic",
+       .lossy = true},
   });
 }
 

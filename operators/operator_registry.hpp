@@ -17,6 +17,8 @@ struct OperatorEntry {
   std::string defaults;  ///< keys with their defaults, as a spec: "dense:f64"
   std::function<std::unique_ptr<LinearOperator>(Spec&, const FormFactors&)> make;
   std::string closure = "none";  ///< unless the spec names another (operators/closed_operator.hpp)
+  bool lossy = false;  ///< is further from T than the rounding of its storage: measured by its certificate
+  std::vector<std::string> variants = {};  ///< further specs that tests and benchmarks take along
 };
 
 /// The operators a program knows, as a value: assembled from lists (cpu_operators(), a user's own) and passed

@@ -1,5 +1,5 @@
 #include "foundation/parallel.hpp"
-#include "tests/conformance/operator_checks.hpp"
+#include "operators/operator_checks.hpp"
 #include "tests/conformance/transport_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,8 @@ class FaultyOperator final : public LinearOperator, public TransposedApply {
   std::string describe() const override { return "faulty"; }
   Certificate certificate() const override {
     const double bound = fault_ == Fault::certifies_too_little ? 1e-12 : 1.0;
-    return {bound * matrix_.rowwise().sum().maxCoeff(), std::nullopt, "proved"};
+    const double error = fault_ == Fault::certifies_too_little ? 1e-18 : 1e-12;
+    return {bound * matrix_.rowwise().sum().maxCoeff(), error, "proved"};
   }
 
   void apply_transposed(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override {
@@ -76,7 +77,9 @@ class BrokenOperators : public testing::Test {
 };
 
 TEST_F(BrokenOperators, WithoutAFaultAllChecksPass) {
-  EXPECT_EQ(check_operator(faulty(Fault::none), data_.reference, data_.root_area), "");
+  EXPECT_EQ(check_operator(faulty(Fault::none), data_.reference), "");
+  EXPECT_EQ(check_operator(faulty(Fault::none), own_entries(faulty(Fault::none))), "");
+  EXPECT_EQ(check_certificate(faulty(Fault::none), data_.reference, data_.root_area), "");
 }
 
 TEST_F(BrokenOperators, ADroppedColumnFails) {
@@ -116,6 +119,10 @@ TEST_F(BrokenOperators, AWrongTransposeFails) {
 
 TEST_F(BrokenOperators, ATooSmallCertificateFails) {
   EXPECT_NE(check_certificate(faulty(Fault::certifies_too_little), data_.reference, data_.root_area), "");
+}
+
+TEST_F(BrokenOperators, ALossThatTheCertificateDoesNotCoverFails) {
+  EXPECT_NE(check_certificate(faulty(Fault::drops_column), data_.reference, data_.root_area), "");
 }
 
 TEST_F(BrokenOperators, FloatArithmeticFailsTheDoubleBound) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "form_factors/form_factors.hpp"
-#include "tests/conformance/operator_checks.hpp"
+#include "operators/operator_checks.hpp"
 
 #include <string>
 #include <vector>

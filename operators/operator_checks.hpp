@@ -18,8 +18,7 @@ namespace radiosity {
 struct OperatorReference {
   /// T of each channel, n x n, to more digits than the operator has.
   std::vector<Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>> matrix;
-  /// Unit roundoff of the operator's storage; what lossy operators are allowed instead: half their relative
-  /// error / n.
+  /// Unit roundoff of the operator's storage.
   double unit_roundoff = 0x1p-53;
   /// An absolute error allowed to each entry of T besides (entries that underflow), n x n; empty: none.
   Eigen::MatrixXd entry_error;
@@ -49,13 +48,17 @@ std::string check_repeatability(const LinearOperator& transport);
 /// written.
 std::string check_exact_zeros(const LinearOperator& transport, const OperatorReference& reference);
 
-/// O4 for rounding: ||A - T|| <= operator_error ||T|| and rho(T) <= spectral_radius_bound hold for trial
-/// fields where the certificate gives them. `root_area` = A^{1/2}.
+/// O4: ||(A - T) X|| <= operator_error ||T|| ||X|| in the area norm for 20 random fields and five hard ones
+/// (constant, single patch, alternating signs, one patch in ten, dominant eigenvector), and rho(A) <=
+/// spectral_radius_bound, where the certificate gives them. `root_area` = A^{1/2}.
 std::string check_certificate(const LinearOperator& transport, const OperatorReference& reference,
                               const Eigen::VectorXd& root_area);
 
-/// All of the above, one line a failure.
-std::string check_operator(const LinearOperator& transport, const OperatorReference& reference,
-                           const Eigen::VectorXd& root_area);
+/// The operator's own entries, to the rounding of its products: what lossy operators are measured against but
+/// for their certificates. n products.
+OperatorReference own_entries(const LinearOperator& transport);
+
+/// All of the above but the certificate, one line a failure.
+std::string check_operator(const LinearOperator& transport, const OperatorReference& reference);
 
 }  // namespace radiosity

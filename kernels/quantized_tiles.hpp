@@ -1,0 +1,89 @@
+#pragma once
+
+#include "kernels/aligned_memory.hpp"
+#include "kernels/half.hpp"
+#include "kernels/tile_directory.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace radiosity {
+
+/// A non-negative symmetric n x n matrix whose upper triangle is kept in tiles of 64 x 64 whole numbers of a
+/// few bits: `block` consecutive entries of a row share a step in binary16, and entry = code step, which
+/// float32 holds exactly. Any entry may be kept apart in float32 instead. The matrix is scale() times what
+/// the tiles hold.
+///
+/// A tile on the diagonal keeps its upper half only, with half of the diagonal's entries: tile + tile' is the
+/// block of the matrix, and a code's error counts twice on the diagonal (which is 0 for planar patches). Rows
+/// and columns beyond n are zero.
+class QuantizedTiles {
+ public:
+  static constexpr Index tile_size = TileDirectory::tile_size;
+  static constexpr Index tile_entries = TileDirectory::tile_entries;
+
+  /// What is kept apart of one tile: entry (r, c) has position 64 r + c; positions rise.
+  struct ExactEntries {
+    std::vector<std::uint16_t> position;
+    std::vector<float> value;
+  };
+
+  /// Zeros. `bits` a code: 0 (all entries are kept apart), 2, 4 or 8; `block`: 16, 32 or 64. Throws
+  /// UsageError for others.
+  QuantizedTiles(TileDirectory directory, int bits, int block);
+
+  const TileDirectory& directory() const { return directory_; }
+  Index size() const { return directory_.size(); }
+  int bits() const { return bits_; }
+  int block() const { return block_; }
+  int largest_code() const { return (1 << bits_) - 1; }
+
+  double scale() const { return scale_; }
+  void set_scale(double scale) { scale_ = scale; }
+
+  /// The code of entry (r, c) of a tile; safe from several threads for different tiles.
+  void set_code(Index tile, Index r, Index c, unsigned code);
+  void set_step(Index tile, Index r, Index block, Half step);
+  /// One element a tile.
+  void set_exact(const std::vector<ExactEntries>& tiles);
+
+  /// The record of a tile: its steps by rows, 64 x (64 / block), then its codes. Word c of group g of 64
+  /// words holds the codes of the entries (g R + k, c), k = 0 ... R - 1, R = 32 / bits, the first in the
+  /// lowest bits: a vector of words yields one row after the other by shifts. 64-byte aligned; null for bits
+  /// = 0.
+  const std::byte* record(Index tile) const { return records_.get() + tile * record_bytes_; }
+  std::ptrdiff_t record_bytes() const { return record_bytes_; }
+  /// The entries kept apart of a tile are those numbered exact_begin(tile) ... exact_begin(tile + 1) - 1.
+  std::size_t exact_begin(Index tile) const { return exact_begin_[static_cast<std::size_t>(tile)]; }
+  const std::vector<std::uint16_t>& exact_position() const { return exact_position_; }
+  const std::vector<float>& exact_value() const { return exact_value_; }
+
+  /// The 64 x 64 numbers of a tile, row-major, without scale(): the plain reference of every decoder.
+  void decode(Index tile, float* entries) const;
+
+  std::size_t step_bytes() const;
+  std::size_t code_bytes() const;
+  std::size_t exact_bytes() const;
+  std::size_t directory_bytes() const;
+
+ private:
+  Index steps_in_tile() const { return bits_ == 0 ? 0 : tile_entries / block_; }
+  std::byte* writable_record(Index tile) { return records_.get() + tile * record_bytes_; }
+
+  TileDirectory directory_;
+  int bits_;
+  int block_;
+  double scale_ = 1;
+  std::ptrdiff_t record_bytes_ = 0;
+  std::unique_ptr<std::byte, AlignedRelease> records_;
+  std::vector<std::size_t> exact_begin_;
+  std::vector<std::uint16_t> exact_position_;
+  std::vector<float> exact_value_;
+};
+
+/// The full matrix, n x n: the plain reference, and for small n.
+Eigen::MatrixXd materialize(const QuantizedTiles& tiles);
+
+}  // namespace radiosity
