@@ -212,27 +212,25 @@ class BlockClosedOperator final : public ClosedKernelOperator {
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override {
     approximation().apply_kernel(X, Y);
     if (rooms_.count == 0) return;
-    const Eigen::MatrixXd means = room_sums(X);                                 // P' X
-    const Eigen::MatrixXd gains = defect_.transpose() * X - coupling_ * means;  // W' X
-    Y.noalias() += defect_ * means;
-    for (Index j = 0; j < Y.cols(); ++j) {
+    for (Index j = 0; j < Y.cols(); ++j) {  // one by one: a column must not depend on how many there are
+      const Eigen::VectorXd means = room_sums(X.col(j));                                 // P' x
+      const Eigen::VectorXd gains = defect_.transpose() * X.col(j) - coupling_ * means;  // W' x
+      Y.col(j).noalias() += defect_ * means;
       for (Index i = 0; i < size(); ++i) {
         const int room = rooms_.of_patch[static_cast<std::size_t>(i)];
-        if (room >= 0) Y(i, j) += scale_[room] * root_area()[i] * gains(room, j);
+        if (room >= 0) Y(i, j) += scale_[room] * root_area()[i] * gains[room];
       }
     }
   }
 
  private:
-  Eigen::MatrixXd room_sums(const ConstFieldRef& X) const {
-    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rooms_.count, X.cols());
-    for (Index j = 0; j < X.cols(); ++j) {
-      for (Index i = 0; i < size(); ++i) {
-        const int room = rooms_.of_patch[static_cast<std::size_t>(i)];
-        if (room >= 0) sums(room, j) += root_area()[i] * X(i, j);
-      }
+  Eigen::VectorXd room_sums(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(rooms_.count);
+    for (Index i = 0; i < size(); ++i) {
+      const int room = rooms_.of_patch[static_cast<std::size_t>(i)];
+      if (room >= 0) sums[room] += root_area()[i] * x[i];
     }
-    return scale_.asDiagonal() * sums;
+    return scale_.cwiseProduct(sums);
   }
 
   double rounding_ = 0;  // of X, relative to ||T||
@@ -266,17 +264,12 @@ void require_true_kernel(const FormFactors& form_factors, const std::string& why
 }
 
 /// The rule of OperatorClosure::automatic.
-OperatorClosure choose_closure(const LinearOperator& transport, const FormFactors& form_factors,
-                               Rooms& rooms) {
-  constexpr double exact_rows = 1e-6, near_enough = 1e-2, reflective = 0.9;
+OperatorClosure choose_closure(const LinearOperator& transport, const FormFactors& form_factors) {
+  constexpr double exact_rows = 1e-6;
   const auto* kernel = dynamic_cast<const KernelOperator*>(&transport);
   if (kernel == nullptr || !form_factors.symmetric() || transport.size() == 0) return OperatorClosure::none;
   const Eigen::VectorXd defect = kernel_row_sums(*kernel) - form_factors.row_sums();
-  if (defect.cwiseAbs().maxCoeff() <= exact_rows) return OperatorClosure::none;
-  const double rms = defect.norm() / std::sqrt(static_cast<double>(defect.size()));
-  if (rms > near_enough && kernel->reflectance().maxCoeff() < reflective) return OperatorClosure::none;
-  rooms = find_rooms(form_factors);
-  return rooms.count > 1 ? OperatorClosure::blocks : OperatorClosure::symmetric;
+  return defect.cwiseAbs().maxCoeff() <= exact_rows ? OperatorClosure::none : OperatorClosure::blocks;
 }
 
 void check_blocks(const std::string& blocks, const std::string& spec) {
@@ -316,10 +309,9 @@ std::unique_ptr<LinearOperator> close_operator(std::unique_ptr<LinearOperator> a
                                                const ClosureChoice& choice, const FormFactors& form_factors) {
   OperatorClosure kind = choice.kind;
   std::string keys = choice.text;
-  Rooms rooms;
   if (kind == OperatorClosure::automatic) {
-    kind = choose_closure(*approximation, form_factors, rooms);
-    keys = kind == OperatorClosure::blocks ? "closure=blocks" : "closure=symmetric";
+    kind = choose_closure(*approximation, form_factors);
+    keys = "closure=blocks";
   }
   if (kind == OperatorClosure::none) {
     if (choice.text != "closure=none" || !approximation->symmetric()) return approximation;
@@ -332,8 +324,8 @@ std::unique_ptr<LinearOperator> close_operator(std::unique_ptr<LinearOperator> a
   auto kernel = as_kernel(std::move(approximation), keys);
   if (kind == OperatorClosure::symmetric)
     return std::make_unique<ScaledKernelOperator>(std::move(kernel), keys, form_factors);
-  if (rooms.of_patch.empty()) rooms = chosen_rooms(choice, form_factors);
-  return std::make_unique<BlockClosedOperator>(std::move(kernel), keys, form_factors, std::move(rooms));
+  return std::make_unique<BlockClosedOperator>(std::move(kernel), keys, form_factors,
+                                               chosen_rooms(choice, form_factors));
 }
 
 }  // namespace radiosity

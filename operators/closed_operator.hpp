@@ -15,14 +15,14 @@ namespace radiosity {
 /// approximation K~ of it (methods.md, "Layers").
 ///   rows       D K~, D = true / own row sums: right rows, not symmetric.
 ///   symmetric  D K~ D with right rows; where that does not exist, rows are only scaled down, and remark()
-///   says
-///              so.
+///              says so.
 ///   blocks     K~ + X P' + P X' - P (P'X) P', X = (K - K~) P, P = indicators of rooms times A^{1/2}: right
 ///   on
 ///              every room's uniform light, exists always, may have small negative entries.
-///   automatic  none where the true kernel's rows are met to 1e-6; else blocks if there are several rooms and
-///              symmetric in one, provided that the approximation's rows are off by at most 1 % (root mean
-///              square) or some reflectance is 0.9 or more: below that, and further off, closing adds error.
+///   automatic  none where the true kernel's rows are met to 1e-6, else blocks over rooms: it never adds to
+///   the error
+///              in the area norm, and was the better one in every scene and at every reflectance tried
+///              (`radiosity compare SCENE --operators topk:closure=symmetric topk:closure=blocks`).
 enum class OperatorClosure { none, rows, symmetric, blocks, automatic };
 
 /// What a spec says about the closure: `closure=KIND` and, for blocks, `blocks=rooms|groups|N`.

@@ -135,11 +135,32 @@ TEST(ClosedOperator, LeavesIsolatedPatchesIsolated) {
   }
 }
 
-TEST(ClosedOperator, AutomaticLeavesFarOffOperatorsAlone) {
-  FormFactors F = symmetric_form_factors(block_kernel(1, 40, 0, 5), Eigen::VectorXd::Ones(40),
-                                         Eigen::MatrixXd::Constant(40, 1, 0.5));
-  EXPECT_EQ(closed(F, "closure=automatic")->describe(), "wrong");
+TEST(ClosedOperator, AutomaticClosesWhatIsNotExact) {
+  const FormFactors F = rooms_with_kernel(block_kernel(2, 40, 0.01, 5));
+  EXPECT_EQ(closed(F, "closure=automatic")->describe(), "wrong:closure=blocks");
   EXPECT_EQ(cpu_operators().make("dense:closure=automatic", F)->describe(), "dense");
+  EXPECT_EQ(cpu_operators().make("quantized", F)->describe(),
+            "quantized:bits=4,block=32,exact=0.01,diffusion=1,closure=blocks");
+  const auto open = cpu_operators().make("quantized:closure=none", F);
+  EXPECT_EQ(open->describe(), "quantized:bits=4,block=32,exact=0.01,diffusion=1,closure=none");
+  EXPECT_EQ(cpu_operators().make(open->describe(), F)->describe(), open->describe());
+}
+
+TEST(ClosedOperator, CertificatesHold) {
+  const FormFactors F = rooms_with_kernel(block_kernel(2, 40, 0.01, 6));
+  Eigen::MatrixXd T = 0.95 * F.matrix();
+  const OperatorReference truth = {{T.cast<long double>()}, 0x1p-53, {}};
+  const Eigen::VectorXd root_area = F.mesh->area.cwiseSqrt();
+  for (const char* spec : {"quantized:bits=2,closure=none", "quantized:bits=2,closure=symmetric",
+                           "quantized:bits=2,closure=blocks", "topk:fraction=0.5,closure=blocks,blocks=8"}) {
+    const auto transport = cpu_operators().make(spec, F);
+    ASSERT_TRUE(transport->certificate().operator_error) << spec;
+    EXPECT_LT(*transport->certificate().operator_error, 1) << spec;
+    EXPECT_EQ(check_certificate(*transport, truth, root_area), "") << spec;
+  }
+  // Blocks may make entries negative, and then row sums bound nothing.
+  EXPECT_FALSE(cpu_operators().make("quantized", F)->certificate().spectral_radius_bound);
+  EXPECT_TRUE(cpu_operators().make("quantized:closure=symmetric", F)->certificate().spectral_radius_bound);
 }
 
 TEST(ClosedOperator, BadKeysAreErrors) {
