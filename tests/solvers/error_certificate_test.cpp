@@ -1,4 +1,4 @@
-#include "exact_rooms.hpp"
+#include "room_operators.hpp"
 #include "foundation/error.hpp"
 #include "foundation/random.hpp"
 #include "solvers/error_certificate.hpp"

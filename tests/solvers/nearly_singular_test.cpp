@@ -1,6 +1,6 @@
 // Hard case R1: reflectances up to 1 in a closed room.
 
-#include "exact_rooms.hpp"
+#include "room_operators.hpp"
 #include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
 #include "solvers/solver_registry.hpp"

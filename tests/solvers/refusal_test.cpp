@@ -1,6 +1,6 @@
 // What solvers do not accept, and that they say so.
 
-#include "exact_rooms.hpp"
+#include "room_operators.hpp"
 #include "foundation/error.hpp"
 #include "solvers/solver_registry.hpp"
 #include "solvers/spectral_radius.hpp"

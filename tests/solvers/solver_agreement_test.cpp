@@ -1,4 +1,4 @@
-#include "exact_rooms.hpp"
+#include "room_operators.hpp"
 #include "foundation/parallel.hpp"
 #include "operators/operator_registry.hpp"
 #include "solvers/solver_registry.hpp"

@@ -1,6 +1,6 @@
 // Hard case R2: the spectral radius is bounded before any Neumann run.
 
-#include "exact_rooms.hpp"
+#include "room_operators.hpp"
 #include "solvers/spectral_radius.hpp"
 
 #include <gtest/gtest.h>

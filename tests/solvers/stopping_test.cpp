@@ -1,6 +1,6 @@
 // Hard case R4: solvers stop on the residual, and the residual bounds the error.
 
-#include "exact_rooms.hpp"
+#include "room_operators.hpp"
 #include "solvers/solver_registry.hpp"
 
 #include <gtest/gtest.h>

@@ -1,15 +1,13 @@
 #pragma once
 
 #include "form_factors/form_factors.hpp"
-#include "operators/kernel_operator.hpp"
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
-namespace radiosity::testing {
+/// Transport problems whose form factors are known exactly, for tests and hard cases.
+namespace radiosity::exact_rooms {
 
 /// A transport problem without a scene: areas, reflectances and the kernel K, small enough to be a full
 /// matrix.
@@ -27,6 +25,10 @@ struct Room {
 /// The inside of a sphere cut into n patches of random area: F_ij = A_j / sum A exactly (also of i to
 /// itself).
 Room sphere_cavity(Index n, std::uint64_t seed, double reflectance);
+
+/// A bowl of half-angle beta < 180 degrees cut from a sphere, n patches of random area: F_ij = A_j / area of the
+/// sphere, so that each row sums to f = (1 - cos beta) / 2.
+Room spherical_bowl(Index n, std::uint64_t seed, double beta_degrees, double reflectance);
 
 /// A closed room with random visibility: a random symmetric kernel scaled until every row of F sums to 1 to
 /// rounding.
@@ -47,33 +49,4 @@ Eigen::MatrixXd random_lights(Index n, Index columns, std::uint64_t seed);
 /// are built from.
 FormFactors form_factors_of(const Room& room);
 
-/// The room as a symmetric operator, multiplied by the plainest loop there is.
-class RoomKernel final : public KernelOperator {
- public:
-  explicit RoomKernel(const Room& room) : KernelOperator(form_factors_of(room)), matrix_(room.kernel) {}
-  ByteCount bytes() const override { return {}; }
-  std::string describe() const override { return "room-kernel"; }
-
- private:
-  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { Y = matrix_.lazyProduct(X); }
-  Eigen::MatrixXd matrix_;
-};
-
-/// The room's T as an operator that nobody knows to be symmetric.
-class RoomTransport final : public LinearOperator {
- public:
-  explicit RoomTransport(const Room& room);
-  Index size() const override { return matrices_.front().rows(); }
-  Index channels() const override { return static_cast<Index>(matrices_.size()); }
-  ByteCount bytes() const override { return {}; }
-  std::string describe() const override { return "room-transport"; }
-
- private:
-  void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
-  std::vector<Eigen::MatrixXd> matrices_;
-};
-
-/// Specs of every registered solver at its defaults, and of gmres with short cycles.
-std::vector<std::string> all_solvers();
-
-}  // namespace radiosity::testing
+}  // namespace radiosity::exact_rooms

@@ -1,11 +1,12 @@
-#include "exact_rooms.hpp"
+#include "form_factors/exact_rooms.hpp"
 
 #include "foundation/random.hpp"
-#include "solvers/solver_registry.hpp"
 
 #include <cmath>
+#include <memory>
+#include <numbers>
 
-namespace radiosity::testing {
+namespace radiosity::exact_rooms {
 
 namespace {
 
@@ -47,6 +48,12 @@ Room sphere_cavity(Index n, std::uint64_t seed, double reflectance) {
   room.area = random_areas(n, random);
   room.reflectance = Eigen::MatrixXd::Constant(n, 1, reflectance);
   room.kernel = room.root_area() * room.root_area().transpose() / room.area.sum();
+  return room;
+}
+
+Room spherical_bowl(Index n, std::uint64_t seed, double beta_degrees, double reflectance) {
+  Room room = sphere_cavity(n, seed, reflectance);
+  room.kernel *= (1 - std::cos(beta_degrees * std::numbers::pi / 180)) / 2;
   return room;
 }
 
@@ -113,25 +120,4 @@ FormFactors form_factors_of(const Room& room) {
   return form_factors;
 }
 
-RoomTransport::RoomTransport(const Room& room) {
-  for (Index c = 0; c < room.reflectance.cols(); ++c) matrices_.push_back(room.transport(c));
-}
-
-void RoomTransport::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
-  for (Index j = 0; j < X.cols(); ++j) {
-    const Eigen::VectorXd image = matrices_[static_cast<std::size_t>(j % channels())] * X.col(j);
-    if (beta == 0)
-      Y.col(j) = alpha * image;
-    else
-      Y.col(j) = alpha * image + beta * Y.col(j);
-  }
-}
-
-std::vector<std::string> all_solvers() {
-  std::vector<std::string> specs{"gmres:restart=5"};
-  const SolverRegistry solvers = cpu_solvers();
-  for (const SolverEntry& entry : solvers.entries()) specs.push_back(entry.name);
-  return specs;
-}
-
-}  // namespace radiosity::testing
+}  // namespace radiosity::exact_rooms
