@@ -2,6 +2,7 @@
 #include "apps/run_options.hpp"
 #include "apps/terminal_monitor.hpp"
 #include "experiments/first_light.hpp"
+#include "experiments/hard_cases.hpp"
 #include "experiments/machine.hpp"
 #include "experiments/report.hpp"
 #include "experiments/solver_study.hpp"
@@ -59,8 +60,13 @@ ReportSection run_solvers(const ReproduceOptions& options, const std::string& co
   return solver_study(options.folder, command, study, program.operators, program.solvers, monitor);
 }
 
-constexpr std::array<Experiment, 2> experiments = {
-    {{"first-light", run_first_light}, {"solvers", run_solvers}}};
+ReportSection run_hard_case_tables(const ReproduceOptions& options, const std::string& command,
+                                   const Program& program, Monitor& monitor) {
+  return hard_cases(options.folder, command, program.operators, program.solvers, monitor);
+}
+
+constexpr std::array<Experiment, 3> experiments = {
+    {{"first-light", run_first_light}, {"solvers", run_solvers}, {"hard-cases", run_hard_case_tables}}};
 
 void require_known_tables(const std::vector<std::string>& tables) {
   std::string known;
@@ -102,6 +108,8 @@ void run_reproduce(const ReproduceOptions& options, const Program& program) {
   const std::filesystem::path file = options.folder / "report.html";
   write_report(file, report);
   monitor.clear();
+  if (!options.tables.empty())
+    for (const ReportSection& section : report.sections) fmt::print("{}", to_text(section));
   fmt::print("wrote {}\n", file.string());
 }
 
@@ -111,7 +119,8 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   CLI::App* command =
       app.add_subcommand("reproduce", "run the experiments: tables and figures, into results/report.html");
   const auto options = std::make_shared<ReproduceOptions>();
-  command->add_option("TABLE", options->tables, "first-light, solvers; default: all")->option_text(" ");
+  command->add_option("TABLE", options->tables, "first-light, solvers, hard-cases; default: all")
+      ->option_text(" ");
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")
       ->option_text("FOLDER");

@@ -53,6 +53,10 @@ ReportFigure png_figure(const std::filesystem::path& file, const std::string& ca
 /// phone, on paper and on a dark screen. Throws Error for a table whose rows are not as long as its heading.
 std::string to_html(const Report& report);
 
+/// The texts and tables of a section for a terminal, columns aligned; figures are left out. Ends with a
+/// newline.
+std::string to_text(const ReportSection& section);
+
 /// Writes to_html as a file that appears whole or not at all.
 void write_report(const std::filesystem::path& file, const Report& report);
 

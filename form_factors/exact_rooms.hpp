@@ -26,8 +26,8 @@ struct Room {
 /// itself).
 Room sphere_cavity(Index n, std::uint64_t seed, double reflectance);
 
-/// A bowl of half-angle beta < 180 degrees cut from a sphere, n patches of random area: F_ij = A_j / area of the
-/// sphere, so that each row sums to f = (1 - cos beta) / 2.
+/// A bowl of half-angle beta < 180 degrees cut from a sphere, n patches of random area: F_ij = A_j / area of
+/// the sphere, so that each row sums to f = (1 - cos beta) / 2.
 Room spherical_bowl(Index n, std::uint64_t seed, double beta_degrees, double reflectance);
 
 /// A closed room with random visibility: a random symmetric kernel scaled until every row of F sums to 1 to

@@ -32,9 +32,16 @@ bool same_bits(const Field& a, const Field& b) {
          });
 }
 
-/// Compares Y with M X, M = T of the column's channel or its transpose, within (2 n u |M| + entry_error) |X|.
-std::string compare(const OperatorReference& reference, bool transposed, const Field& X, const Field& Y) {
+/// The worst entry of Y against M X, M = T of the column's channel or its transpose.
+struct WorstEntry {
+  double ratio =
+      0;  ///< of the error to (2 n u |M| + entry_error) |X|; infinite where 0 is allowed and not met
+  std::string text;
+};
+
+WorstEntry compare(const OperatorReference& reference, bool transposed, const Field& X, const Field& Y) {
   const auto n = static_cast<long double>(reference.size());
+  WorstEntry worst;
   for (Index j = 0; j < X.cols(); ++j) {
     const Exact& T = reference.matrix[static_cast<std::size_t>(j % reference.channels())];
     for (Index i = 0; i < T.rows(); ++i) {
@@ -48,12 +55,29 @@ std::string compare(const OperatorReference& reference, bool transposed, const F
         if (reference.entry_error.size() > 0)
           bound += (transposed ? reference.entry_error(k, i) : reference.entry_error(i, k)) * std::fabs(x);
       }
-      if (!(std::fabs(Y(i, j) - exact) <= bound))
-        return fmt::format("{}: ({}, {}) is {}, should be {} within {}", transposed ? "T' X" : "T X", i, j,
-                           Y(i, j), static_cast<double>(exact), static_cast<double>(bound));
+      const long double error = std::fabs(Y(i, j) - exact);
+      if (error == 0) continue;
+      double ratio = static_cast<double>(error / bound);
+      if (!(ratio >= 0)) ratio = std::numeric_limits<double>::infinity();  // NaN
+      if (ratio <= worst.ratio) continue;
+      worst.ratio = ratio;
+      worst.text = fmt::format("{}: ({}, {}) is {}, should be {} within {}", transposed ? "T' X" : "T X", i,
+                               j, Y(i, j), static_cast<double>(exact), static_cast<double>(bound));
     }
   }
-  return {};
+  return worst;
+}
+
+WorstEntry worst_product(const LinearOperator& transport, const OperatorReference& reference) {
+  WorstEntry worst;
+  for (const Index fields : {1, 2}) {
+    const Field X = random_field(transport.size(), fields * transport.channels(), 51);
+    Field Y(X.rows(), X.cols());
+    transport.apply(X, Y);
+    const WorstEntry found = compare(reference, false, X, Y);
+    if (found.ratio > worst.ratio) worst = found;
+  }
+  return worst;
 }
 
 /// An upper bound of the spectral norm of |T|.
@@ -164,14 +188,13 @@ class ChannelTrials {
 
 }  // namespace
 
+double product_error_ratio(const LinearOperator& transport, const OperatorReference& reference) {
+  return worst_product(transport, reference).ratio;
+}
+
 std::string check_products(const LinearOperator& transport, const OperatorReference& reference) {
-  for (const Index fields : {1, 2}) {
-    const Field X = random_field(transport.size(), fields * transport.channels(), 51);
-    Field Y(X.rows(), X.cols());
-    transport.apply(X, Y);
-    if (std::string failure = compare(reference, false, X, Y); !failure.empty()) return failure;
-  }
-  return {};
+  const WorstEntry worst = worst_product(transport, reference);
+  return worst.ratio <= 1 ? std::string() : worst.text;
 }
 
 std::string check_transposed(const LinearOperator& transport, const OperatorReference& reference) {
@@ -183,7 +206,7 @@ std::string check_transposed(const LinearOperator& transport, const OperatorRefe
   Field TY(X.rows(), X.cols());
   transport.apply(X, TX);
   transposable->apply_transposed(1, Y, 0, TY);
-  if (std::string failure = compare(reference, true, Y, TY); !failure.empty()) return failure;
+  if (const WorstEntry worst = compare(reference, true, Y, TY); worst.ratio > 1) return worst.text;
   for (Index j = 0; j < X.cols(); ++j) {
     const double left = TX.col(j).dot(Y.col(j));
     const double right = X.col(j).dot(TY.col(j));
@@ -306,26 +329,41 @@ OperatorReference own_entries(const LinearOperator& transport) {
   return reference;
 }
 
-std::string check_certificate(const LinearOperator& transport, const OperatorReference& reference,
-                              const Eigen::VectorXd& root_area) {
+CertificateRatio certificate_ratio(const LinearOperator& transport, const OperatorReference& reference,
+                                   const Eigen::VectorXd& root_area) {
+  CertificateRatio worst;
   const Certificate certificate = transport.certificate();
-  if (!certificate.spectral_radius_bound && !certificate.operator_error) return {};
-  if (certificate.method.empty()) return "the certificate does not say how it was obtained";
-  if (transport.size() == 0) return {};
+  if (transport.size() == 0) return worst;
+  const auto ratio = [](double measured, double allowed) {
+    if (measured == 0) return 0.0;
+    const double quotient = measured / allowed;
+    return quotient >= 0 ? quotient : std::numeric_limits<double>::infinity();
+  };
   for (Index channel = 0; channel < transport.channels(); ++channel) {
     const ChannelTrials trials(transport, reference.matrix[static_cast<std::size_t>(channel)], channel,
                                root_area);
-    const double radius = trials.smallest_spectral_radius();
-    if (certificate.spectral_radius_bound && *certificate.spectral_radius_bound < radius * (1 - 1e-6))
-      return fmt::format("the spectral radius is at least {}, its bound {}", radius,
-                         *certificate.spectral_radius_bound);
-    // The norm of T is one of its products, and so from below: the slack is for that.
-    const double error = trials.largest_error();
-    const double norm = trials.norm();
-    if (certificate.operator_error && error > 1.02 * *certificate.operator_error * norm)
-      return fmt::format("A X is off by {} of ||X||, the certificate allows {} of ||T|| >= {}", error,
-                         *certificate.operator_error, norm);
+    if (certificate.spectral_radius_bound)
+      worst.spectral_radius =
+          std::max(worst.spectral_radius.value_or(0),
+                   ratio(trials.smallest_spectral_radius(), *certificate.spectral_radius_bound));
+    if (certificate.operator_error)
+      worst.operator_error =
+          std::max(worst.operator_error.value_or(0),
+                   ratio(trials.largest_error(), *certificate.operator_error * trials.norm()));
   }
+  return worst;
+}
+
+std::string check_certificate(const LinearOperator& transport, const OperatorReference& reference,
+                              const Eigen::VectorXd& root_area) {
+  const CertificateRatio ratio = certificate_ratio(transport, reference, root_area);
+  if (!ratio.spectral_radius && !ratio.operator_error) return {};
+  if (transport.certificate().method.empty()) return "the certificate does not say how it was obtained";
+  if (ratio.spectral_radius.value_or(0) > 1 + 1e-6)
+    return fmt::format("the spectral radius is {} of its bound", *ratio.spectral_radius);
+  // The norm of T is one of its products, and so from below: the slack is for that.
+  if (ratio.operator_error.value_or(0) > 1.02)
+    return fmt::format("||(A - T) X|| is {} of what the certificate allows", *ratio.operator_error);
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct OperatorReference {
 /// O1: |Y - T X| <= 2 n u |T| |X|, component by component, for fields of both signs.
 std::string check_products(const LinearOperator& transport, const OperatorReference& reference);
 
+/// The largest |Y - T X| of that check in units of its bound.
+double product_error_ratio(const LinearOperator& transport, const OperatorReference& reference);
+
 /// O1: the same for T' and <T x, y> = <x, T' y> to 4 n u ||x|| || |T| || ||y||; passes if there is no
 /// transpose.
 std::string check_transposed(const LinearOperator& transport, const OperatorReference& reference);
@@ -53,6 +57,14 @@ std::string check_exact_zeros(const LinearOperator& transport, const OperatorRef
 /// spectral_radius_bound, where the certificate gives them. `root_area` = A^{1/2}.
 std::string check_certificate(const LinearOperator& transport, const OperatorReference& reference,
                               const Eigen::VectorXd& root_area);
+
+/// What that check measures in units of what the certificate allows; empty where it says nothing.
+struct CertificateRatio {
+  std::optional<double> spectral_radius;
+  std::optional<double> operator_error;
+};
+CertificateRatio certificate_ratio(const LinearOperator& transport, const OperatorReference& reference,
+                                   const Eigen::VectorXd& root_area);
 
 /// The operator's own entries, to the rounding of its products: what lossy operators are measured against but
 /// for their certificates. n products.

@@ -1,6 +1,6 @@
-#include "room_operators.hpp"
 #include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
+#include "room_operators.hpp"
 #include "solvers/solver_registry.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "room_operators.hpp"
 #include "foundation/error.hpp"
 #include "foundation/random.hpp"
+#include "room_operators.hpp"
 #include "solvers/error_certificate.hpp"
 #include "solvers/patch_error_bounds.hpp"
 #include "solvers/solver_registry.hpp"

@@ -1,7 +1,7 @@
 // Hard case E1: in a closed room with one reflectance and uniform emission, B = E / (1 - rho).
 
-#include "room_operators.hpp"
 #include "foundation/error.hpp"
+#include "room_operators.hpp"
 #include "solvers/solver_registry.hpp"
 #include "solvers/stepped_solver.hpp"
 

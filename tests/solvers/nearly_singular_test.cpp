@@ -1,8 +1,8 @@
 // Hard case R1: reflectances up to 1 in a closed room.
 
-#include "room_operators.hpp"
 #include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
+#include "room_operators.hpp"
 #include "solvers/solver_registry.hpp"
 #include "solvers/stepped_solver.hpp"
 

@@ -1,7 +1,7 @@
 // What solvers do not accept, and that they say so.
 
-#include "room_operators.hpp"
 #include "foundation/error.hpp"
+#include "room_operators.hpp"
 #include "solvers/solver_registry.hpp"
 #include "solvers/spectral_radius.hpp"
 
