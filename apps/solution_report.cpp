@@ -46,8 +46,13 @@ void print_certificate(const CertificateSummary& certificate) {
   }
   const std::string odds =
       certificate.confidence < 1 ? fmt::format(", with probability {:.6g}", certificate.confidence) : "";
-  fmt::print("certified  B is right to {:.2g} of its norm for this F ({}, {} vectors, {:.3g} products{})\n",
-             *certificate.bound, certificate.kind, certificate.vectors, certificate.products, odds);
+  if (certificate.from_rows)
+    fmt::print(
+        "certified  B is right to {:.2g} of its norm, errors of F included ({}, {:.3g} of the rows of F{})\n",
+        *certificate.bound, certificate.kind, certificate.products, odds);
+  else
+    fmt::print("certified  B is right to {:.2g} of its norm for this F ({}, {} vectors, {:.3g} products{})\n",
+               *certificate.bound, certificate.kind, certificate.vectors, certificate.products, odds);
 }
 
 Json reference_json(const ReferenceComparison& reference) {

@@ -35,6 +35,7 @@ struct SolveOptions {
   RunOptions run;
   std::string lights;
   bool no_certificate = false;
+  Index certificate_rows = 0;  ///< 0: from products with the whole kernel
   std::filesystem::path error_bounds_file;
   bool reference = false;
   PathTracingOptions paths;
@@ -79,7 +80,12 @@ void run_solve(SolveOptions options, const Program& program) {
   report.energy = energy_balance(form_factors, emission, report.solution.radiosity);
   if (!options.no_certificate) {
     monitor.checkpoint("certificate", 0);
-    if (const auto certifier = Certifier::make(form_factors, options.run.seed))
+    if (options.certificate_rows > 0) {
+      // Rows of their own: another seed, and a tolerance that leaves the assembled factors' error visible.
+      report.certificate =
+          certify_from_rows(mesh, options.certificate_rows, options.form_factors.options.tolerance / 10,
+                            options.run.seed + 1, emission, report.solution.radiosity);
+    } else if (const auto certifier = Certifier::make(form_factors, options.run.seed))
       report.certificate = certifier->certify(emission, report.solution.radiosity);
   }
   Field error_bounds;
@@ -144,8 +150,16 @@ void add_solve_command(CLI::App& app, const Program& program) {
       ->add_option("--error-bounds", options->error_bounds_file,
                    "write a proved bound on the error of each patch's radiosity, for this F")
       ->option_text("FILE.npy");
-  command->add_flag("--no-certificate", options->no_certificate,
-                    "do not bound the error of B, which takes some products with the true kernel");
+  CLI::Option* none =
+      command->add_flag("--no-certificate", options->no_certificate,
+                        "do not bound the error of B, which takes some products with the true kernel");
+  command
+      ->add_option(
+          "--certificate-rows", options->certificate_rows,
+          "bound the error of B, that of F included, from N rows of F computed afresh, with 99 % confidence")
+      ->check(integer_between(32, 1 << 24))
+      ->excludes(none)
+      ->option_text("N");
   command->add_flag("--reference", options->reference,
                     "compare with path tracing, which shares no transport code");
   command->add_option("--reference-paths", options->paths.paths, "paths from each patch; default 1024")

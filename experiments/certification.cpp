@@ -1,8 +1,10 @@
 #include "experiments/certification.hpp"
 
+#include "form_factors/form_factor_rows.hpp"
 #include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
 #include "solvers/patch_error_bounds.hpp"
+#include "solvers/sampled_certificate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +31,27 @@ Field bound_patch_errors(const FormFactors& form_factors, const Field& emission,
         form_factors.quality.method);
   const auto transport = cpu_operators().make("dense", form_factors);
   return patch_error_bounds(dynamic_cast<const KernelOperator&>(*transport), emission, radiosity);
+}
+
+CertificateSummary certify_from_rows(const std::shared_ptr<const PatchMesh>& mesh, Index rows,
+                                     double tolerance, std::uint64_t seed, const Field& emission,
+                                     const Field& radiosity) {
+  SampledCertificateOptions options;
+  options.rows = rows;
+  options.seed = seed;
+  const FormFactorRows form_factors(mesh, tolerance, seed);
+  const ErrorBound bound = sampled_error_bound(
+      mesh->area, mesh->reflectance, [&](Index i) { return form_factors.row(i); }, emission, radiosity,
+      options);
+  CertificateSummary summary;
+  const bool all = rows >= mesh->patch_count();
+  summary.kind = all ? "proved" : "sampled";
+  summary.from_rows = true;
+  summary.confidence = all ? 1 : options.confidence;
+  summary.products = all ? 1 : static_cast<double>(rows) / static_cast<double>(mesh->patch_count());
+  const double largest = bound.relative.size() == 0 ? 0 : bound.relative.maxCoeff();
+  if (std::isfinite(largest)) summary.bound = largest;
+  return summary;
 }
 
 Certifier::Certifier(const FormFactors& form_factors, std::uint64_t seed)

@@ -12,8 +12,9 @@ namespace radiosity {
 /// What a certificate says of a set of answers (key "certificate" of the JSON).
 struct CertificateSummary {
   std::optional<double> bound;  ///< largest ||B - B~||_A / ||B||_A over the lights; empty: not bounded
-  std::string kind;             ///< proved or deflated
+  std::string kind;             ///< proved, deflated or sampled
   double confidence = 1;
+  bool from_rows = false;           ///< certify_from_rows: against F computed afresh
   Index vectors = 0;                ///< deflated, over all channels
   double products = 0;              ///< with the true kernel, setup and one answer a light
   std::optional<double> ratio_min;  ///< of bound / actual error over the lights, where the truth is known
@@ -23,6 +24,14 @@ struct CertificateSummary {
 /// |B_ij - B~_ij| <= the result, n x c, with the true kernel (solvers/patch_error_bounds.hpp). Throws
 /// UsageError where form factors have no symmetric kernel.
 Field bound_patch_errors(const FormFactors& form_factors, const Field& emission, const Field& radiosity);
+
+/// Certifies an answer against `rows` rows of F that are computed afresh by the accurate method, with a
+/// tolerance and a seed of their own (solvers/sampled_certificate.hpp): for kernels that do not fit, and for
+/// form factors that are not trusted. kind is "sampled", or "proved" with rows >= n; products counts rows /
+/// n.
+CertificateSummary certify_from_rows(const std::shared_ptr<const PatchMesh>& mesh, Index rows,
+                                     double tolerance, std::uint64_t seed, const Field& emission,
+                                     const Field& radiosity);
 
 /// Certifies answers against assembled form factors; null where these have no symmetric kernel.
 class Certifier {

@@ -110,6 +110,27 @@ TEST(Solve, TakesItsMaterialsFromTheCommandLine) {
   EXPECT_GT(B(0, 1), B(0, 2));
 }
 
+TEST(Solve, CertifiesFromRowsComputedAfresh) {
+  const TemporaryFolder folder;
+  const auto certificate = [&](std::vector<std::string> arguments) {
+    const std::vector<std::string> common = {"solve", "cornell-box-closed", "--patches", "300", "--json",
+                                             "B.json"};
+    arguments.insert(arguments.begin(), common.begin(), common.end());
+    succeed(arguments, folder);
+    std::ifstream file(folder.path() / "B.json");
+    return nlohmann::json::parse(file).at("certificate");
+  };
+  const auto sampled = certificate({"--certificate-rows", "64"});
+  EXPECT_EQ(sampled.at("kind"), "sampled");
+  EXPECT_EQ(sampled.at("confidence"), 0.99);
+  EXPECT_LT(sampled.at("bound").get<double>(), 0.01);
+  EXPECT_EQ(certificate({"--certificate-rows", "200"}).at("kind"), "proved");
+  // Form factors from one ray are several per cent off, and only fresh rows tell.
+  const auto one_ray = certificate({"--form-factors", "one-ray", "--certificate-rows", "64"});
+  EXPECT_GT(one_ray.at("bound").get<double>(), 0.02);
+  EXPECT_LT(certificate({"--form-factors", "one-ray"}).at("bound").get<double>(), 1e-4);
+}
+
 TEST(Solve, WritesBoundsOnTheErrorOfEachPatch) {
   const TemporaryFolder folder;
   const auto run = [&](const std::string& tolerance, const std::string& stem) {
