@@ -85,8 +85,9 @@ void run_solve(SolveOptions options, const Program& program) {
       report.certificate =
           certify_from_rows(mesh, options.certificate_rows, options.form_factors.options.tolerance / 10,
                             options.run.seed + 1, emission, report.solution.radiosity);
-    } else if (const auto certifier = Certifier::make(form_factors, options.run.seed))
+    } else if (const auto certifier = Certifier::make(form_factors, options.run.seed)) {
       report.certificate = certifier->certify(emission, report.solution.radiosity);
+    }
   }
   Field error_bounds;
   if (!options.error_bounds_file.empty())

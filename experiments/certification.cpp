@@ -4,6 +4,7 @@
 #include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
 #include "solvers/patch_error_bounds.hpp"
+#include "solvers/radau_bound.hpp"
 #include "solvers/sampled_certificate.hpp"
 
 #include <algorithm>
@@ -55,41 +56,50 @@ CertificateSummary certify_from_rows(const std::shared_ptr<const PatchMesh>& mes
 }
 
 Certifier::Certifier(const FormFactors& form_factors, std::uint64_t seed)
-    : transport_(cpu_operators().make("dense", form_factors)) {
-  ErrorCertificateOptions options;
-  options.seed = seed;
-  certificate_ =
-      std::make_unique<ErrorCertificate>(dynamic_cast<const KernelOperator&>(*transport_), options);
-  setup_products_ = certificate_->products();
-}
+    : transport_(cpu_operators().make("dense", form_factors)), seed_(seed) {}
 
 std::unique_ptr<Certifier> Certifier::make(const FormFactors& form_factors, std::uint64_t seed) {
   if (!form_factors.symmetric()) return nullptr;
   return std::unique_ptr<Certifier>(new Certifier(form_factors, seed));
 }
 
+const KernelOperator& Certifier::truth() const {
+  return dynamic_cast<const KernelOperator&>(*transport_);
+}
+
+ErrorBound Certifier::deflate(const ErrorBound& loose, const Field& emission, const Field& radiosity,
+                              CertificateSummary& summary) const {
+  if (!deflated_) {
+    ErrorCertificateOptions options;
+    options.seed = seed_;
+    deflated_ = std::make_unique<ErrorCertificate>(truth(), options);
+  }
+  const Eigen::RowVectorXd absolute = loose.absolute.cwiseMin(deflated_->bound(emission, radiosity).absolute);
+  summary.kind = deflated_->kind();
+  summary.confidence = deflated_->confidence();
+  summary.vectors = deflated_->vectors();
+  summary.products += deflated_->products();
+  return ErrorBound::of(absolute, truth().root_area(), radiosity, truth().channels());
+}
+
 CertificateSummary Certifier::certify(const Field& emission, const Field& radiosity,
-                                      const std::optional<Field>& truth) const {
+                                      const std::optional<Field>& truth_field) const {
   CertificateSummary summary;
-  const double before = certificate_->products();
-  const ErrorBound bound = certificate_->bound(emission, radiosity);
-  summary.kind = certificate_->kind();
-  summary.confidence = certificate_->confidence();
-  summary.vectors = certificate_->vectors();
-  summary.products = setup_products_ + certificate_->products() - before;
+  const RadauBound radau = radau_error_bound(truth(), emission, radiosity, {.most_steps = 30});
+  summary.kind = "gauss-radau";
+  summary.products = radau.products;
+  const ErrorBound bound = radau.tight ? radau.bound : deflate(radau.bound, emission, radiosity, summary);
   const double largest = bound.relative.size() == 0 ? 0 : bound.relative.maxCoeff();
   if (std::isfinite(largest)) summary.bound = largest;
-  if (!truth) return summary;
-  const Eigen::VectorXd root_area = transport_->size() == 0
-                                        ? Eigen::VectorXd()
-                                        : dynamic_cast<const KernelOperator&>(*transport_).root_area();
-  const Index channels = transport_->channels();
+  if (!truth_field) return summary;
+  const Index channels = truth().channels();
   for (Index light = 0; light < bound.relative.size(); ++light) {
-    const auto own = truth->middleCols(light * channels, channels);
+    const auto own = truth_field->middleCols(light * channels, channels);
     const double actual =
-        (root_area.asDiagonal() * (radiosity.middleCols(light * channels, channels) - own)).norm();
+        (truth().root_area().asDiagonal() * (radiosity.middleCols(light * channels, channels) - own)).norm();
     const double allowed = bound.absolute.segment(light * channels, channels).norm();
-    if (actual > smallest_known_error * (root_area.asDiagonal() * own).norm() && std::isfinite(allowed))
+    if (actual > smallest_known_error * (truth().root_area().asDiagonal() * own).norm() &&
+        std::isfinite(allowed))
       take_ratio(summary, allowed / actual);
   }
   return summary;

@@ -1,8 +1,6 @@
 #include "solvers/error_certificate.hpp"
 
 #include "factorizations/leading_eigenpairs.hpp"
-#include "foundation/error.hpp"
-#include "solvers/stepped_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,24 +11,13 @@ namespace radiosity {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double black = 1e-4;  // reflectances below this are not divided by
-
-/// Bound on the largest eigenvalue of a non-negative T = R F over the rows: max rho_i sum_j F_ij.
-double largest_row(const Eigen::VectorXd& reflectance, const Eigen::VectorXd& row_sums) {
-  if (reflectance.size() == 0) return 0;
-  const double allowance = 1 + 4 * static_cast<double>(reflectance.size() + 2) * unit_roundoff;
-  return reflectance.cwiseProduct(row_sums).maxCoeff() * allowance;
-}
-
 }  // namespace
 
 ErrorCertificate::ErrorCertificate(const KernelOperator& truth, const ErrorCertificateOptions& options)
     : truth_(truth) {
-  Field sums(truth.size(), 1);
-  if (truth.size() > 0) truth.apply_kernel(truth.root_area(), sums);
+  const Eigen::RowVectorXd rows = largest_rows(truth);
   count_columns(1);
-  const Eigen::VectorXd row_sums = sums.col(0).cwiseQuotient(truth.root_area());
-  for (Index c = 0; c < truth.channels(); ++c) channels_.push_back(examine_channel(c, row_sums, options));
+  for (Index c = 0; c < truth.channels(); ++c) channels_.push_back(examine_channel(c, rows[c], options));
 }
 
 Index ErrorCertificate::vectors() const {
@@ -39,12 +26,11 @@ Index ErrorCertificate::vectors() const {
   return count;
 }
 
-ErrorCertificate::Channel ErrorCertificate::examine_channel(Index channel, const Eigen::VectorXd& row_sums,
+ErrorCertificate::Channel ErrorCertificate::examine_channel(Index channel, double row_bound,
                                                             const ErrorCertificateOptions& options) {
   Channel result;
-  const Eigen::VectorXd reflectance = truth_.reflectance().col(channel);
-  result.root = reflectance.cwiseSqrt();
-  result.row_bound = largest_row(reflectance, row_sums);
+  result.root = truth_.reflectance().col(channel).cwiseSqrt();
+  result.row_bound = row_bound;
   result.rest = result.row_bound;
   result.vectors.resize(truth_.size(), 0);
   if (1 + result.row_bound <= options.wanted_ratio * (1 - result.row_bound)) return result;
@@ -99,55 +85,14 @@ double ErrorCertificate::bound_column(const Channel& channel, const Eigen::Vecto
 }
 
 ErrorBound ErrorCertificate::bound(const Field& emission, const Field& radiosity) const {
-  const Index n = truth_.size(), channels = truth_.channels();
-  if (emission.rows() != n || radiosity.rows() != n || emission.cols() != radiosity.cols() ||
-      emission.cols() % channels != 0)
-    fail<UsageError>("a certificate for {} patches and {} channels got E of {} x {} and B of {} x {}", n,
-                     channels, emission.rows(), emission.cols(), radiosity.rows(), radiosity.cols());
-  const Field energy = truth_.root_area().asDiagonal() * radiosity;  // b~
-  const Field light = truth_.root_area().asDiagonal() * emission;    // e
-  Field gathered(n, radiosity.cols());
-  truth_.apply_kernel(energy, gathered);  // K b~
-  count_columns(radiosity.cols());
-
-  // Where a patch is (nearly) black, w~ cannot be had from b~ - e: one bounce of b~ takes the place of b~
-  // there.
-  Field bounced = energy;
-  Eigen::RowVectorXd moved = Eigen::RowVectorXd::Zero(radiosity.cols());
+  const WeightedResidual start = weighted_residual(truth_, emission, radiosity);
+  count_columns(start.columns);
+  Eigen::RowVectorXd absolute(radiosity.cols());
   for (Index j = 0; j < radiosity.cols(); ++j) {
-    const Eigen::VectorXd& root = channels_[static_cast<std::size_t>(j % channels)].root;
-    for (Index i = 0; i < n; ++i)
-      if (root[i] * root[i] < black) bounced(i, j) = light(i, j) + root[i] * root[i] * gathered(i, j);
-    moved[j] = (bounced.col(j) - energy.col(j)).norm();
+    const Channel& channel = channels_[static_cast<std::size_t>(j % truth_.channels())];
+    absolute[j] = bound_column(channel, start.residual.col(j), start.rounding[j]) + start.moved[j];
   }
-  if (moved.maxCoeff() > 0) {
-    truth_.apply_kernel(bounced, gathered);
-    count_columns(radiosity.cols());
-  }
-
-  ErrorBound result;
-  result.absolute.resize(radiosity.cols());
-  const double product_error = 2 * static_cast<double>(n + 8) * unit_roundoff;
-  for (Index j = 0; j < radiosity.cols(); ++j) {
-    const Channel& channel = channels_[static_cast<std::size_t>(j % channels)];
-    Eigen::VectorXd residual(n);
-    for (Index i = 0; i < n; ++i) {
-      const double rho = channel.root[i] * channel.root[i];
-      // For a black patch, w~ is one more bounce, of `bounced`, and its residual is 0.
-      residual[i] = rho < black
-                        ? 0
-                        : channel.root[i] * gathered(i, j) - (bounced(i, j) - light(i, j)) / channel.root[i];
-    }
-    const double rounding = product_error * (bounced.col(j).norm() + residual.norm());
-    result.absolute[j] = bound_column(channel, residual, rounding) + moved[j];
-  }
-  result.relative.resize(radiosity.cols() / channels);
-  for (Index light_index = 0; light_index < result.relative.size(); ++light_index) {
-    const double error = result.absolute.segment(light_index * channels, channels).norm();
-    const double norm = energy.middleCols(light_index * channels, channels).norm();
-    result.relative[light_index] = error == 0 ? 0 : (error < norm ? error / (norm - error) : infinite);
-  }
-  return result;
+  return ErrorBound::of(absolute, truth_.root_area(), radiosity, truth_.channels());
 }
 
 }  // namespace radiosity

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "operators/kernel_operator.hpp"
+#include "solvers/weighted_residual.hpp"
 
 #include <Eigen/Core>
 
@@ -15,14 +15,6 @@ struct ErrorCertificateOptions {
   double wanted_ratio = 3;     ///< (1 - smallest) / (1 - largest) eigenvalue left by the deflation
   Index most_vectors = 64;     ///< a channel
   std::uint64_t seed = 1;
-};
-
-/// Bounds of one or more answers.
-struct ErrorBound {
-  /// ||B - B~||_A <= this, one a column; infinite where nothing is known (the system may be singular).
-  Eigen::RowVectorXd absolute;
-  /// ||B - B~||_A <= this ||B||_A, one a light, all its channels together; infinite where B~ may be noise.
-  Eigen::RowVectorXd relative;
 };
 
 /// An a posteriori bound on the error of any B~ as a solution of B = E + T B with the true kernel K: from an
@@ -62,8 +54,7 @@ class ErrorCertificate {
     double row_bound = 0;     ///< ||S||_2 <= this
   };
 
-  Channel examine_channel(Index channel, const Eigen::VectorXd& row_sums,
-                          const ErrorCertificateOptions& options);
+  Channel examine_channel(Index channel, double row_bound, const ErrorCertificateOptions& options);
   double bound_column(const Channel& channel, const Eigen::VectorXd& residual, double rounding) const;
   void count_columns(Index columns) const { columns_ += columns; }
 

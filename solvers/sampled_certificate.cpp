@@ -144,15 +144,7 @@ ErrorBound sampled_error_bound(const Eigen::VectorXd& area, const Eigen::MatrixX
     bound.absolute[j] =
         largest < 1 ? std::sqrt(square) / (1 - largest) : std::numeric_limits<double>::infinity();
   }
-  for (Index light = 0; light < bound.relative.size(); ++light) {
-    const double own =
-        (area.cwiseSqrt().asDiagonal() * radiosity.middleCols(light * channels, channels)).norm();
-    const double error = bound.absolute.segment(light * channels, channels).norm();
-    bound.relative[light] = error == 0    ? 0.0
-                            : error < own ? error / (own - error)
-                                          : std::numeric_limits<double>::infinity();
-  }
-  return bound;
+  return ErrorBound::of(bound.absolute, area.cwiseSqrt(), radiosity, channels);
 }
 
 }  // namespace radiosity
