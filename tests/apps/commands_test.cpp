@@ -113,8 +113,7 @@ TEST(Solve, TakesItsMaterialsFromTheCommandLine) {
 TEST(Solve, CertifiesFromRowsComputedAfresh) {
   const TemporaryFolder folder;
   const auto certificate = [&](std::vector<std::string> arguments) {
-    const std::vector<std::string> common = {"solve", "cornell-box-closed", "--patches", "300", "--json",
-                                             "B.json"};
+    const std::vector<std::string> common = {"solve", "cube", "--patches", "96", "--json", "B.json"};
     arguments.insert(arguments.begin(), common.begin(), common.end());
     succeed(arguments, folder);
     std::ifstream file(folder.path() / "B.json");
