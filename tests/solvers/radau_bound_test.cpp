@@ -11,7 +11,7 @@
 namespace radiosity::testing {
 namespace {
 
-struct Ratios {
+struct RadauRatios {
   double smallest = 1e300;
   double largest = 0;
   bool tight = true;
@@ -19,14 +19,14 @@ struct Ratios {
 };
 
 /// Bound over error for answers with errors of several kinds.
-Ratios ratios_in(const Room& room, const RadauBoundOptions& options = {}) {
+RadauRatios ratios_in(const Room& room, const RadauBoundOptions& options = {}) {
   const Index n = room.size(), channels = room.reflectance.cols();
   const RoomKernel truth(room);
   const Field emission = random_lights(n, channels, 3);
   Field solution(n, channels);
   for (Index c = 0; c < channels; ++c)
     solution.col(c) = (Eigen::MatrixXd::Identity(n, n) - room.transport(c)).lu().solve(emission.col(c));
-  Ratios ratios;
+  RadauRatios ratios;
   for (int kind = 0; kind < 5; ++kind) {
     Field answer = solution;
     const Field noise = random_lights(n, channels, 50 + static_cast<std::uint64_t>(kind));
@@ -51,7 +51,7 @@ TEST(RadauBound, HoldsAndIsTight) {
   for (const double reflectance : {0.3, 0.7, 0.9, 0.99}) {
     for (const Room& room : {closed_room(80, 4, reflectance), sphere_cavity(60, 5, reflectance),
                              chained_rooms(3, 40, 0.05, 6, reflectance)}) {
-      const Ratios ratios = ratios_in(room);
+      const RadauRatios ratios = ratios_in(room);
       EXPECT_GE(ratios.smallest, 1) << reflectance;
       EXPECT_TRUE(ratios.tight) << reflectance;
       EXPECT_LE(ratios.largest, 1.4) << reflectance;
@@ -61,14 +61,14 @@ TEST(RadauBound, HoldsAndIsTight) {
 }
 
 TEST(RadauBound, HoldsWithBlackPatchesAndColours) {
-  const Ratios ratios = ratios_in(open_room(120, 8, 3));
+  const RadauRatios ratios = ratios_in(open_room(120, 8, 3));
   EXPECT_GE(ratios.smallest, 1);
   EXPECT_LE(ratios.largest, 5);  // reflectances differ, and the largest stands for all
 }
 
 TEST(RadauBound, SaysWhenItIsLoose) {
   const Room room = chained_rooms(4, 30, 0.01, 6, 0.9999);
-  const Ratios ratios = ratios_in(room, {.most_steps = 3});
+  const RadauRatios ratios = ratios_in(room, {.most_steps = 3});
   EXPECT_FALSE(ratios.tight);
   EXPECT_GE(ratios.smallest, 1);
 }
