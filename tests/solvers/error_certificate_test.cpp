@@ -3,6 +3,7 @@
 #include "room_operators.hpp"
 #include "solvers/error_certificate.hpp"
 #include "solvers/patch_error_bounds.hpp"
+#include "solvers/radau_bound.hpp"
 #include "solvers/solver_registry.hpp"
 
 #include <Eigen/LU>
@@ -48,8 +49,7 @@ struct Ratios {
   double low = 1e300, high = 0;
 };
 
-Ratios bound_over_actual(const Room& room, const ErrorCertificate& certificate, const Trials& trials) {
-  const ErrorBound bound = certificate.bound(trials.emission, trials.answers);
+Ratios ratios_of(const ErrorBound& bound, const Room& room, const Trials& trials) {
   const Eigen::RowVectorXd actual = area_norms(room.root_area(), Field(trials.answers - trials.truth));
   Ratios ratios;
   for (Index j = 0; j < actual.size(); ++j) {
@@ -59,6 +59,10 @@ Ratios bound_over_actual(const Room& room, const ErrorCertificate& certificate, 
   return ratios;
 }
 
+Ratios bound_over_actual(const Room& room, const ErrorCertificate& certificate, const Trials& trials) {
+  return ratios_of(certificate.bound(trials.emission, trials.answers), room, trials);
+}
+
 TEST(ErrorCertificate, HoldsInTenThousandTrials) {
   std::uint64_t seed = 1;
   for (const int rooms : {1, 2, 5, 10})
@@ -66,9 +70,19 @@ TEST(ErrorCertificate, HoldsInTenThousandTrials) {
       const Room chain = chained_rooms(rooms, 120 / rooms, 0.02, seed, reflectance);
       const RoomKernel truth(chain);
       const ErrorCertificate certificate(truth);
-      const Ratios ratios = bound_over_actual(chain, certificate, draw_trials(chain, 500, ++seed));
+      const Trials trials = draw_trials(chain, 500, ++seed);
+      const Ratios ratios = bound_over_actual(chain, certificate, trials);
       EXPECT_GE(ratios.low, 1) << rooms << " rooms, " << reflectance;
       EXPECT_LE(ratios.high, 4) << rooms << " rooms, " << reflectance;
+      // The same trials by quadrature, which is within its 30 % or, where steps run out, holds all the same.
+      const RadauBound radau = radau_error_bound(truth, trials.emission, trials.answers, {.most_steps = 30});
+      const Ratios by_quadrature = ratios_of(radau.bound, chain, trials);
+      EXPECT_GE(by_quadrature.low, 1) << rooms << " rooms, " << reflectance;
+      if (radau.tight) {
+        EXPECT_LE(by_quadrature.high, 1.31) << rooms << " rooms, " << reflectance;
+      } else {
+        EXPECT_GT(reflectance, 0.95) << rooms << " rooms";
+      }
       if (reflectance > 0.95) {
         EXPECT_GE(certificate.vectors(), rooms);
       }
