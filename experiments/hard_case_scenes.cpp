@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -59,20 +58,6 @@ KnownSolution lit_bowl(Index patches, double reflectance) {
   Field emission = exact_rooms::random_lights(patches, 1, 25);
   emission.topRows(patches / 2).setZero();  // the dark part
   return with_mean_light(room, emission, 0.25);
-}
-
-OperatorReference exact_entries(const FormFactors& form_factors) {
-  OperatorReference reference;
-  const PatchMesh& mesh = *form_factors.mesh;
-  const Index n = form_factors.patch_count();
-  for (Index channel = 0; channel < mesh.channels(); ++channel) {
-    auto& T = reference.matrix.emplace_back(n, n);
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i)
-        T(i, j) = static_cast<long double>(mesh.reflectance(i, channel)) * (*form_factors.kernel)(i, j) *
-                  std::sqrt(static_cast<long double>(mesh.area[j]) / mesh.area[i]);
-  }
-  return reference;
 }
 
 }  // namespace radiosity

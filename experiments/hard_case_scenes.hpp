@@ -2,7 +2,7 @@
 
 #include "form_factors/exact_rooms.hpp"
 #include "form_factors/form_factors.hpp"
-#include "operators/operator_checks.hpp"
+#include "operators/linear_operator.hpp"
 
 #include <string>
 
@@ -24,8 +24,5 @@ KnownSolution furnace(Index patches, double reflectance);
 KnownSolution lit_sphere(Index patches, double reflectance);
 /// E2: a spherical bowl of half-angle 60 degrees, partly lit: B = E + rho f <E> / (1 - rho f).
 KnownSolution lit_bowl(Index patches, double reflectance);
-
-/// T of form factors in every channel.
-OperatorReference exact_entries(const FormFactors& form_factors);
 
 }  // namespace radiosity

@@ -2,6 +2,7 @@
 #include "experiments/hard_cases.hpp"
 #include "foundation/error.hpp"
 #include "operators/kernel_operator.hpp"
+#include "operators/operator_checks.hpp"
 #include "solvers/error_certificate.hpp"
 #include "solvers/spectral_radius.hpp"
 

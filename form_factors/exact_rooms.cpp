@@ -110,12 +110,12 @@ FormFactors form_factors_of(const Room& room) {
   mesh->emission = Eigen::MatrixXd::Zero(n, room.reflectance.cols());
   mesh->normal = Eigen::Matrix3Xd::Zero(3, n);
   mesh->centroid = Eigen::Matrix3Xd::Zero(3, n);
-  auto kernel = std::make_shared<SymmetricTiles<double>>(n, [](Index, Index) { return true; });
+  SymmetricTiles<double> kernel(n, [](Index, Index) { return true; });
   for (Index i = 0; i < n; ++i)
-    for (Index j = i; j < n; ++j) kernel->set(i, j, room.kernel(i, j));
+    for (Index j = i; j < n; ++j) kernel.set(i, j, room.kernel(i, j));
   FormFactors form_factors;
   form_factors.mesh = mesh;
-  form_factors.kernel = kernel;
+  form_factors.kernel = std::make_shared<const SymmetricTiles<double>>(kernel.without_zero_tiles());
   form_factors.exposed = Eigen::VectorXd::Ones(n);
   return form_factors;
 }

@@ -45,8 +45,8 @@ Room open_room(Index n, std::uint64_t seed, Index channels);
 /// Random fields in [0, 1).
 Eigen::MatrixXd random_lights(Index n, Index columns, std::uint64_t seed);
 
-/// Form factors whose mesh has areas and reflectances and no geometry, K in tiles: what registered operators
-/// are built from.
+/// Form factors whose mesh has areas and reflectances and no geometry, K in tiles (those that are
+/// zero are not kept): what registered operators are built from.
 FormFactors form_factors_of(const Room& room);
 
 }  // namespace radiosity::exact_rooms

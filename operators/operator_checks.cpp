@@ -308,6 +308,24 @@ std::string check_exact_zeros(const LinearOperator& transport, const OperatorRef
   return {};
 }
 
+OperatorReference exact_entries(const FormFactors& form_factors) {
+  OperatorReference reference;
+  const PatchMesh& mesh = *form_factors.mesh;
+  const Index n = form_factors.patch_count();
+  for (Index channel = 0; channel < mesh.channels(); ++channel) {
+    Exact& T = reference.matrix.emplace_back(n, n);
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) {
+        const long double factor = form_factors.symmetric()
+                                       ? (*form_factors.kernel)(i, j) *
+                                             std::sqrt(static_cast<long double>(mesh.area[j]) / mesh.area[i])
+                                       : (*form_factors.unsymmetric)(i, j);
+        T(i, j) = mesh.reflectance(i, channel) * factor;
+      }
+  }
+  return reference;
+}
+
 OperatorReference own_entries(const LinearOperator& transport) {
   const Index n = transport.size();
   const Index c = transport.channels();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "form_factors/form_factors.hpp"
 #include "operators/linear_operator.hpp"
 
 #include <Eigen/Core>
@@ -65,6 +66,10 @@ struct CertificateRatio {
 };
 CertificateRatio certificate_ratio(const LinearOperator& transport, const OperatorReference& reference,
                                    const Eigen::VectorXd& root_area);
+
+/// T = R F of form factors in every channel, with u of double: what operators that keep every entry are
+/// measured against.
+OperatorReference exact_entries(const FormFactors& form_factors);
 
 /// The operator's own entries, to the rounding of its products: what lossy operators are measured against but
 /// for their certificates. n products.

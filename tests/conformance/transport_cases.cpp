@@ -1,5 +1,6 @@
 #include "tests/conformance/transport_cases.hpp"
 
+#include "form_factors/exact_rooms.hpp"
 #include "foundation/random.hpp"
 
 #include <cmath>
@@ -34,37 +35,16 @@ Eigen::MatrixXd random_reflectance(Index n, Index channels, std::uint64_t seed) 
 }
 
 TransportCase make_case(std::string name, FormFactors form_factors) {
-  TransportCase result{std::move(name), std::move(form_factors), {}, {}};
-  const PatchMesh& mesh = *result.form_factors.mesh;
-  const Index n = mesh.patch_count();
-  result.root_area = mesh.area.cwiseSqrt();
-  for (Index c = 0; c < mesh.channels(); ++c) {
-    auto& T = result.reference.matrix.emplace_back(n, n);
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i) {
-        const long double factor = result.form_factors.symmetric()
-                                       ? (*result.form_factors.kernel)(i, j) *
-                                             std::sqrt(static_cast<long double>(mesh.area[j]) / mesh.area[i])
-                                       : (*result.form_factors.unsymmetric)(i, j);
-        T(i, j) = mesh.reflectance(i, c) * factor;
-      }
-  }
-  return result;
+  OperatorReference reference = exact_entries(form_factors);
+  const Eigen::VectorXd root_area = form_factors.mesh->area.cwiseSqrt();
+  return {std::move(name), std::move(form_factors), std::move(reference), root_area};
 }
 
 }  // namespace
 
 FormFactors symmetric_form_factors(const Eigen::MatrixXd& kernel, const Eigen::VectorXd& area,
                                    const Eigen::MatrixXd& reflectance) {
-  const Index n = kernel.rows();
-  auto tiles = std::make_shared<SymmetricTiles<double>>(n, [](Index, Index) { return true; });
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i <= j; ++i) tiles->set(i, j, kernel(i, j));
-  FormFactors form_factors;
-  form_factors.mesh = mesh_of(area, reflectance);
-  form_factors.kernel = std::make_shared<const SymmetricTiles<double>>(tiles->without_zero_tiles());
-  form_factors.exposed = Eigen::VectorXd::Ones(n);
-  return form_factors;
+  return form_factors_of(exact_rooms::Room{area, reflectance, kernel});
 }
 
 FormFactors unsymmetric_form_factors(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& area,
