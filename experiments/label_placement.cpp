@@ -18,9 +18,9 @@ double text_width(std::string_view text, double size) {
   double em = 0;
   for (const char c : text) {
     if ((static_cast<unsigned char>(c) & 0xC0) == 0x80) continue;  // inside a UTF-8 sequence
-    em += narrow.find(c) != std::string_view::npos ? 0.32
+    em += narrow.find(c) != std::string_view::npos ? 0.34
           : wide.find(c) != std::string_view::npos ? 0.88
-                                                   : 0.58;
+                                                   : 0.63;
   }
   return em * size;
 }
