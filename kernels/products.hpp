@@ -24,6 +24,13 @@ void multiply(const SymmetricTiles<float>& K, const ConstFieldRef& X, FieldRef Y
 void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
 
+/// |Y - K X| <= this |K| |X|, component by component, for double tiles: within four tiles a number passes at
+/// most 128 additions in its lane (of two numbers at least) and two across lanes, then one for each four
+/// tiles or, down columns, 64 and one for each tile, and 64 for the chunks of work. Twice that many u.
+constexpr double tiled_product_error(Index n) {
+  return 2 * (200 + static_cast<double>(n) / 64) * 0x1p-53;
+}
+
 /// The same for a quantized matrix, with u of float: each tile is decoded into the first cache, where it
 /// serves all columns.
 void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y,

@@ -7,6 +7,9 @@
 #include "operators/rounding_certificate.hpp"
 #include "operators/storage_choice.hpp"
 
+#include <algorithm>
+#include <type_traits>
+
 namespace radiosity {
 namespace {
 
@@ -41,6 +44,11 @@ class DenseKernelOperator final : public KernelOperator {
   }
   std::string describe() const override { return storage_spec<Scalar>("dense"); }
   double product_roundoff() const override { return std::is_same_v<Scalar, double> ? 0x1p-53 : 0x1p-24; }
+
+  double product_error() const override {
+    const double any_order = KernelOperator::product_error();
+    return std::is_same_v<Scalar, double> ? std::min(any_order, tiled_product_error(size())) : any_order;
+  }
 
   Certificate certificate() const override {
     const AbsoluteSums kernel = absolute_sums(*kernel_, root_area());

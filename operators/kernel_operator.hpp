@@ -19,6 +19,9 @@ class KernelOperator : public LinearOperator, public TransposedApply {
   /// channels() is).
   void apply_kernel(const ConstFieldRef& X, FieldRef Y) const;
 
+  /// |Y - K X| <= this |K| |X|, component by component, for products as they are computed.
+  virtual double product_error() const { return 2 * static_cast<double>(size() + 8) * product_roundoff(); }
+
   void apply_transposed(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const final;
 
   /// A^{1/2}, n.

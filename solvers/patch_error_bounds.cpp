@@ -30,9 +30,8 @@ Field patch_error_bounds(const KernelOperator& truth, const Field& emission, con
     fail<UsageError>("error bounds for {} patches and {} channels got E of {} x {} and B of {} x {}", n,
                      truth.channels(), emission.rows(), emission.cols(), radiosity.rows(), radiosity.cols());
   if (n == 0 || emission.cols() == 0) return Field::Zero(emission.rows(), emission.cols());
-  // 2 (n + 8) u of T |x| bounds the rounding of a product; row sums of T are at most 1 or so, so that the
-  // largest entry does for |x|.
-  const double product_error = 2 * static_cast<double>(n + 8) * unit_roundoff;
+  // Row sums of T are at most 1 or so, so that the largest entry does for |x|.
+  const double product_error = truth.product_error() + 8 * unit_roundoff;
   Field gathered(n, radiosity.cols());
   truth.apply(radiosity, gathered);
   Field wanted = (emission + gathered - radiosity).cwiseAbs();

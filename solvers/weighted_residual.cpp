@@ -45,7 +45,7 @@ WeightedResidual weighted_residual(const KernelOperator& truth, const Field& emi
 
   result.residual.resize(n, radiosity.cols());
   result.rounding.resize(radiosity.cols());
-  const double product_error = 2 * static_cast<double>(n + 8) * unit_roundoff;
+  const double product_error = truth.product_error() + 8 * unit_roundoff;  // the diagonals' in it
   for (Index j = 0; j < radiosity.cols(); ++j) {
     for (Index i = 0; i < n; ++i) {
       const double own = root(i, j % channels);

@@ -38,6 +38,19 @@ TYPED_TEST(SymmetricProduct, MeetsItsBoundForAnyNumberOfColumns) {
   this->expect_right(K, random_matrix(130, 35, 11));
 }
 
+TEST(SymmetricProductOfDouble, MeetsTheBoundOfItsTreeOfSums) {
+  const Index n = 2500;
+  const auto K = tiles_of(random_symmetric_matrix(n, 27));
+  const Eigen::MatrixXd X = random_matrix(n, 2, 28);
+  const double fewer_sums = tiled_product_error(n) / (2 * static_cast<double>(n));
+  EXPECT_LT(fewer_sums, 0.2 * unit_roundoff<double>());
+  for (const InstructionSet set : available_instruction_sets()) {
+    Eigen::MatrixXd Y(n, 2);
+    multiply(K, X, Y, set);
+    EXPECT_TRUE(within_product_bound(materialize(K), X, Y, fewer_sums)) << name(set);
+  }
+}
+
 TYPED_TEST(SymmetricProduct, SkipsTilesThatAreNotKept) {
   const Index n = 600;
   const Eigen::MatrixXd full = random_symmetric_matrix(n, 12);
