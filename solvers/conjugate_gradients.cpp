@@ -65,6 +65,10 @@ void ConjugateGradients::evaluate(Index j, const Eigen::VectorXd& kernel_product
   const double defect_norm = defect.norm();
   accept_residual(j, defect_norm);
   if (small_enough(j, defect_norm)) return;
+  if (column.evaluated && defect_norm <= 4 * rounding_floor(j)) {
+    end_stagnated(j);
+    return;
+  }
 
   // A second start from here is a residual correction: worth while as long as it gains something.
   const bool gained = !column.evaluated || accepted_residual(j) < 0.5 * before;
@@ -98,7 +102,9 @@ void ConjugateGradients::iterate(Index j, const Eigen::VectorXd& kernel_product)
   column.steps_without_progress = recurred < column.smallest_residual ? 0 : column.steps_without_progress + 1;
   column.smallest_residual = std::min(column.smallest_residual, recurred);
   const bool stuck = column.steps_without_progress > 50 + size();
-  if (small_enough(j, recurred) || residual_.col(j).isZero(0) || stuck) column.next = Next::evaluate;
+  // Beyond the rounding of the products the recurrence goes on to fall, and the true residual does not.
+  const bool enough = small_enough(j, recurred) || recurred <= rounding_floor(j);
+  if (enough || residual_.col(j).isZero(0) || stuck) column.next = Next::evaluate;
 }
 
 void ConjugateGradients::renew_directions(const std::vector<Index>& columns) {

@@ -142,6 +142,11 @@ void SteppedSolver::fail_as_singular() const {
       name_);
 }
 
+double SteppedSolver::rounding_floor(Index column) const {
+  if (transport().product_roundoff() <= unit_roundoff) return 0;
+  return transport().product_roundoff() * root_area().cwiseProduct(radiosity_.col(column)).norm();
+}
+
 void SteppedSolver::end_stagnated(Index column) {
   const double radiosity_norm = root_area().cwiseProduct(radiosity_.col(column)).norm();
   const double by_rounding = unit_roundoff * radiosity_norm / emission_norms_[column];

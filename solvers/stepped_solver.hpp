@@ -75,6 +75,10 @@ class SteppedSolver : public Solver {
 
   [[noreturn]] void fail_as_singular() const;
 
+  /// The residual norm that the rounding of an operator in float32 leaves: u ||B||_A, u its roundoff; 0 for
+  /// operators in double, whose iterations find out by themselves.
+  double rounding_floor(Index column) const;
+
   /// For an iteration that gets no closer. An operator that multiplies in float32 and has brought the
   /// residual down to 8 u ||B||_A, u its roundoff, has given all that it can: the column closes, and
   /// residual() says where it stands. Otherwise throws Error: for rounding if that explains the residual,
