@@ -23,7 +23,7 @@ class Problem {
  public:
   Problem(const HardCaseSubject& subject, const FormFactors& form_factors, double tolerance)
       : form_factors_(form_factors),
-        transport_(subject.operators.make("dense", form_factors)),
+        transport_(subject.operators.make(subject.solvers.exact_operator(subject.spec), form_factors)),
         root_area_(form_factors.mesh->area.cwiseSqrt()),
         solver_(subject.solvers.make(subject.spec, {*transport_,
                                                     root_area_,

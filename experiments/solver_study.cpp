@@ -52,7 +52,7 @@ SolverRun run_solver(const FormFactors& form_factors, const std::string& spec,
   SolverRun run;
   run.solver = spec;
   run.patches = form_factors.patch_count();
-  const auto transport = operators.make("dense", form_factors);
+  const auto transport = operators.make(solvers.exact_operator(spec), form_factors);
   const Stopwatch watch;
   try {
     const auto solver =

@@ -73,6 +73,26 @@ PivotedQr pivoted_qr(MatrixXd matrix) {
   return result;
 }
 
+LuFactors::LuFactors(MatrixXd matrix) : triangles_(std::move(matrix)) {
+  const lapack_int n = as_lapack(triangles_.rows());
+  reciprocal_condition_ = 1;
+  if (n == 0) return;
+  const double norm = triangles_.cwiseAbs().colwise().sum().maxCoeff();
+  pivots_.resize(static_cast<std::size_t>(n));
+  const lapack_int zero_pivot = LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, triangles_.data(), n, pivots_.data());
+  reciprocal_condition_ = 0;
+  if (zero_pivot == 0)
+    LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, triangles_.data(), n, norm, &reciprocal_condition_);
+}
+
+MatrixXd LuFactors::solve(MatrixXd X) const {
+  const lapack_int n = as_lapack(size());
+  if (X.size() > 0)
+    LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', n, as_lapack(X.cols()), triangles_.data(), n, pivots_.data(),
+                   X.data(), n);
+  return X;
+}
+
 MatrixXd orthonormal_columns(const MatrixXd& X, double tolerance) {
   const PivotedQr qr = pivoted_qr(X);
   Index rank = 0;

@@ -34,6 +34,22 @@ struct PivotedQr {
 /// QR with column pivoting, A P = Q R (dgeqp3).
 PivotedQr pivoted_qr(Eigen::MatrixXd matrix);
 
+/// A = P L U (dgetrf) with an estimate of how near A is to a singular matrix (dgecon, 1-norm); 0 where a
+/// pivot is 0.
+class LuFactors {
+ public:
+  explicit LuFactors(Eigen::MatrixXd matrix);
+  Eigen::Index size() const { return triangles_.rows(); }
+  double reciprocal_condition() const { return reciprocal_condition_; }
+  /// A^{-1} X.
+  Eigen::MatrixXd solve(Eigen::MatrixXd X) const;
+
+ private:
+  Eigen::MatrixXd triangles_;
+  std::vector<int> pivots_;
+  double reciprocal_condition_ = 0;
+};
+
 /// An orthonormal basis of the columns of X: columns that depend on the others to `tolerance` relative to the
 /// largest are left out.
 Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& X, double tolerance = 1e-10);

@@ -2,6 +2,7 @@
 #include "operators/dense_operator.hpp"
 #include "operators/operator_registry.hpp"
 #include "operators/quantized_operator.hpp"
+#include "operators/svd_operator.hpp"
 #include "operators/topk_operator.hpp"
 
 namespace radiosity {
@@ -31,6 +32,20 @@ OperatorRegistry cpu_operators() {
        .make = make_topk_operator,
        .closure = "automatic",
        .lossy = true},
+      {.name = "svd",
+       .summary = "the best approximation of rank k, in the plain or the area norm; from all entries",
+       .defaults = "svd:k=64,norm=plain,storage=f32",
+       .make = make_svd_operator,
+       .closure = "automatic",
+       .lossy = true,
+       .variants = {"svd:k=32,norm=area"}},
+      {.name = "rsvd",
+       .summary = "a randomized SVD of rank k, in the plain or the area norm; from products",
+       .defaults = "rsvd:k=64,norm=plain,storage=f32,power=1,oversampling=10,seed=1",
+       .make = make_rsvd_operator,
+       .closure = "automatic",
+       .lossy = true,
+       .variants = {"rsvd:k=32,norm=area"}},
   });
 }
 

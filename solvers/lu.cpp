@@ -3,8 +3,6 @@
 #include "foundation/error.hpp"
 #include "solvers/materialized_transport.hpp"
 
-#include <lapacke.h>
-
 #include <utility>
 
 namespace radiosity {
@@ -17,13 +15,14 @@ void Lu::begin() {
   if (factors_.empty() || reflectance_ != reflectance) {
     require_memory(name(), size(), channels(), options().matrix_bytes);
     std::vector<Eigen::MatrixXd> matrices = transport_matrices(transport());
-    factors_.assign(matrices.size(), Factors{});
-    for (std::size_t c = 0; c < matrices.size(); ++c) {
-      Eigen::MatrixXd& system = factors_[c].triangles;
-      system = -(root_area().asDiagonal() * matrices[c] * root_area().cwiseInverse().asDiagonal());
-      matrices[c].resize(0, 0);
-      system.diagonal().array() += 1;
-      factor(factors_[c], system.cwiseAbs().colwise().sum().maxCoeff());
+    factors_.clear();
+    for (Eigen::MatrixXd& matrix : matrices) {
+      matrix = -(root_area().asDiagonal() * matrix * root_area().cwiseInverse().asDiagonal());
+      matrix.diagonal().array() += 1;
+      factors_.emplace_back(std::move(matrix));
+      if (factors_.back().reciprocal_condition() >= static_cast<double>(size()) * unit_roundoff) continue;
+      factors_.clear();
+      fail_as_singular();
     }
     reflectance_ = reflectance;
   }
@@ -31,30 +30,13 @@ void Lu::begin() {
   steps_ = 0;
 }
 
-void Lu::factor(Factors& factors, double norm) {
-  const auto n = static_cast<lapack_int>(size());
-  factors.pivots.resize(static_cast<std::size_t>(n));
-  const lapack_int zero_pivot =
-      LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, factors.triangles.data(), n, factors.pivots.data());
-  double reciprocal_condition = 0;
-  if (zero_pivot == 0)
-    LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, factors.triangles.data(), n, norm, &reciprocal_condition);
-  if (!(reciprocal_condition >= static_cast<double>(n) * unit_roundoff)) {
-    factors_.clear();
-    fail_as_singular();
-  }
-}
-
 void Lu::advance() {
   if (steps_ > 0) spend_products();
-  const auto n = static_cast<lapack_int>(size());
-  for (const Index j : open_columns()) {
-    const Factors& factors = factors_[static_cast<std::size_t>(j % channels())];
-    Eigen::VectorXd correction = residuals_.col(j);
-    LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', n, 1, factors.triangles.data(), n, factors.pivots.data(),
-                   correction.data(), n);
-    mutable_radiosity().col(j) += correction.cwiseQuotient(root_area());
-  }
+  for (const Index j : open_columns())
+    mutable_radiosity().col(j) += factors_[static_cast<std::size_t>(j % channels())]
+                                      .solve(residuals_.col(j))
+                                      .col(0)
+                                      .cwiseQuotient(root_area());
 
   const Field gathered = multiply_open(radiosity());
   const std::vector<Index> columns = open_columns();

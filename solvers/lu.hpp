@@ -1,5 +1,6 @@
 #pragma once
 
+#include "factorizations/lapack.hpp"
 #include "solvers/stepped_solver.hpp"
 
 #include <vector>
@@ -19,18 +20,12 @@ class Lu final : public SteppedSolver {
   std::string describe() const override { return "lu"; }
 
  private:
-  struct Factors {
-    Eigen::MatrixXd triangles;  ///< L and U of I - A^{1/2} T A^{-1/2}
-    std::vector<int> pivots;
-  };
-
   void begin() override;
   void advance() override;
-  void factor(Factors& factors, double norm);
 
-  std::vector<Factors> factors_;  ///< one a channel
-  Eigen::MatrixXd reflectance_;   ///< what the factors were made for; empty for operators without a kernel
-  Field residuals_;               ///< A^{1/2} (E - (I - T) B)
+  std::vector<LuFactors> factors_;  ///< of I - A^{1/2} T A^{-1/2}, one a channel
+  Eigen::MatrixXd reflectance_;     ///< what the factors were made for; empty for operators without a kernel
+  Field residuals_;                 ///< A^{1/2} (E - (I - T) B)
   int steps_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include "solvers/gmres.hpp"
 #include "solvers/lu.hpp"
 #include "solvers/neumann.hpp"
+#include "solvers/woodbury.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -39,17 +40,22 @@ void SolverRegistry::add(SolverEntry entry) {
   entries_.push_back(std::move(entry));
 }
 
+const SolverEntry& SolverRegistry::entry(const std::string& name) const {
+  std::string known;
+  for (const SolverEntry& candidate : entries_) {
+    if (candidate.name == name) return candidate;
+    known += (known.empty() ? "" : ", ") + candidate.name;
+  }
+  fail<UsageError>("There is no solver '{}': the known ones are {}.", name, known);
+}
+
+const std::string& SolverRegistry::exact_operator(const std::string& spec) const {
+  return entry(Spec::parse(spec).name()).exact_operator;
+}
+
 std::unique_ptr<Solver> SolverRegistry::make(const std::string& text, const SolverProblem& problem) const {
   Spec spec = Spec::parse(!text.empty() ? text : problem.transport.symmetric() ? "cg" : "gmres");
-  const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const SolverEntry& candidate) {
-    return candidate.name == spec.name();
-  });
-  if (entry == entries_.end()) {
-    std::string known;
-    for (const SolverEntry& candidate : entries_) known += (known.empty() ? "" : ", ") + candidate.name;
-    fail<UsageError>("There is no solver '{}': the known ones are {}.", spec.name(), known);
-  }
-  std::unique_ptr<Solver> solver = entry->make(spec, problem);
+  std::unique_ptr<Solver> solver = entry(spec.name()).make(spec, problem);
   spec.finish();
   return solver;
 }
@@ -67,6 +73,8 @@ SolverRegistry cpu_solvers() {
       {"gauss-seidel", "sweeps over the patches (document 003); reads every entry", "gauss-seidel",
        make_plain<GaussSeidel>},
       {"lu", "direct: LU of every channel's matrix; reads every entry", "lu", make_plain<Lu>},
+      {"woodbury", "direct: for operators of low rank (document 004)", "woodbury", make_plain<Woodbury>,
+       "svd:k=1048576,norm=area,storage=f64,closure=none"},
   });
 }
 

@@ -25,6 +25,9 @@ struct SolverEntry {
   std::string summary;
   std::string defaults;  ///< keys with their defaults, as a spec
   std::function<std::unique_ptr<Solver>(Spec&, const SolverProblem&)> make;
+  /// An operator that keeps every entry of T to double precision and that this solver takes: what it is tried
+  /// with.
+  std::string exact_operator = "dense";
 };
 
 /// The solvers a program knows, as a value.
@@ -37,12 +40,17 @@ class SolverRegistry {
   void add(SolverEntry entry);
   const std::vector<SolverEntry>& entries() const { return entries_; }
 
+  /// SolverEntry::exact_operator of the solver that a spec names. Throws UsageError for unknown names.
+  const std::string& exact_operator(const std::string& spec) const;
+
   /// Parses and builds; an empty spec means cg where the operator is symmetric, else gmres.
   /// Throws UsageError for unknown names and keys, and for a solver that the operator does not allow (cg on
   /// an unsymmetric one).
   std::unique_ptr<Solver> make(const std::string& spec, const SolverProblem& problem) const;
 
  private:
+  const SolverEntry& entry(const std::string& name) const;
+
   std::vector<SolverEntry> entries_;
 };
 

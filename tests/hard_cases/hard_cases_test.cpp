@@ -65,7 +65,7 @@ class FaultyKernel final : public KernelOperator {
   std::string describe() const override { return "faulty:fault=" + fault_; }
   Certificate certificate() const override {
     if (fault_ == "overstates") return {1e-3, 1e-20, "proved"};
-    return {std::nullopt, 0.5, "proved"};
+    return {std::nullopt, 1e-12, "proved"};
   }
 
  protected:

@@ -36,7 +36,7 @@ class RoomTransport final : public LinearOperator {
   std::vector<Eigen::MatrixXd> matrices_;
 };
 
-/// Specs of every registered solver at its defaults, and of gmres with short cycles.
+/// Specs of every registered solver that takes any operator at its defaults, and of gmres with short cycles.
 std::vector<std::string> all_solvers();
 
 }  // namespace radiosity::testing

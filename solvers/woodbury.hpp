@@ -1,0 +1,41 @@
+#pragma once
+
+#include "factorizations/lapack.hpp"
+#include "operators/low_rank_operator.hpp"
+#include "solvers/stepped_solver.hpp"
+
+#include <string>
+#include <vector>
+
+namespace radiosity {
+
+/// The direct answer with an operator of low rank, T = R U V' (document 004, Woodbury's formula):
+///
+///   B = E + R U (I - V' R U)^-1 V' E,
+///
+/// two products of n x k and one of k x k a column. The capacitance matrix I - V' R U of each channel is made
+/// and factored in double at the first start(), k products with U and V, and again when the reflectance has
+/// changed. One step answers and computes the residual with the operator's own product; where that misses the
+/// tolerance, further steps are iterative refinements with the same factors. products() counts the
+/// refinements. Refuses as singular where the estimated reciprocal condition number of the capacitance matrix
+/// is below k u.
+class Woodbury final : public SteppedSolver {
+ public:
+  /// Throws UsageError if the operator is not of low rank.
+  explicit Woodbury(const SolverProblem& problem);
+
+  std::string describe() const override { return "woodbury"; }
+
+ private:
+  void begin() override;
+  void advance() override;
+  void factor_capacitances();
+
+  const LowRankFactors& factors_;
+  std::vector<LuFactors> capacitances_;  ///< one a channel
+  Eigen::MatrixXd reflectance_;          ///< what they were made for
+  Field residuals_;                      ///< E - (I - T) B
+  int steps_ = 0;
+};
+
+}  // namespace radiosity
