@@ -3,6 +3,7 @@
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/random.hpp"
+#include "operators/low_rank_operator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -326,6 +327,19 @@ OperatorReference exact_entries(const FormFactors& form_factors) {
   return reference;
 }
 
+namespace {
+
+/// |R| |U| |V'|, n x n: the size of what cancels in the entries of R U V'. The largest over channels.
+Eigen::MatrixXd factor_products(const LowRankFactors& factors, Index n) {
+  Field U(n, factors.rank());
+  factors.multiply_left(Field::Identity(factors.rank(), factors.rank()), U);
+  Field V(factors.rank(), n);
+  factors.multiply_right_transposed(Field::Identity(n, n), V);
+  return factors.albedo().rowwise().maxCoeff().asDiagonal() * (U.cwiseAbs() * V.cwiseAbs());
+}
+
+}  // namespace
+
 OperatorReference own_entries(const LinearOperator& transport) {
   const Index n = transport.size();
   const Index c = transport.channels();
@@ -344,6 +358,10 @@ OperatorReference own_entries(const LinearOperator& transport) {
         reference.entry_error.cwiseMax(4 * reference.unit_roundoff * entries.cast<double>().cwiseAbs());
     reference.matrix.push_back(std::move(entries));
   }
+  // Two products, by n and by k terms, of numbers that may cancel.
+  if (const auto* factors = dynamic_cast<const LowRankFactors*>(&transport))
+    reference.entry_error += 4 * static_cast<double>(n + factors->rank()) * reference.unit_roundoff *
+                             factor_products(*factors, n);
   return reference;
 }
 

@@ -72,7 +72,8 @@ CertificateRatio certificate_ratio(const LinearOperator& transport, const Operat
 OperatorReference exact_entries(const FormFactors& form_factors);
 
 /// The operator's own entries, to the rounding of its products: what lossy operators are measured against but
-/// for their certificates. n products.
+/// for their certificates. n products. The entries of R U V' are allowed the rounding of |R| |U| |V'|, which
+/// may be larger than they are.
 OperatorReference own_entries(const LinearOperator& transport);
 
 /// All of the above but the certificate, one line a failure.

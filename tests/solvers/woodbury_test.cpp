@@ -41,7 +41,7 @@ TEST(Woodbury, IsBackwardStableUpToConditionTwoToTheTwelveDecades) {
       const Room room = separate_spheres(rank, rank == 1 ? 100 : 4, 1 - 1 / condition);
       for (const char* norm : {"plain", "area"}) {
         const auto transport = cpu_operators().make(
-            fmt::format("svd:k={},norm={},storage=f64,closure=none", rank, norm), form_factors_of(room));
+            fmt::format("svd:k={},norm={},storage=f64", rank, norm), form_factors_of(room));
         Woodbury solver({*transport, room.root_area(), {.tolerance = 1e-17, .max_products = 2}});
         const Field E = random_lights(room.size(), 2, 3);
         solver.start(E);
@@ -62,7 +62,7 @@ TEST(Woodbury, SinglePrecisionIsWithinItsCondition) {
     const Field E = random_lights(room.size(), 1, 4);
     const auto answer = [&](const std::string& storage) {
       const auto transport =
-          cpu_operators().make("svd:k=8,closure=none,storage=" + storage, form_factors_of(room));
+          cpu_operators().make("svd:k=8,storage=" + storage, form_factors_of(room));
       Woodbury solver({*transport, room.root_area(), {.tolerance = 1e-3}});
       return Field(solve(solver, E));
     };
@@ -74,7 +74,7 @@ TEST(Woodbury, SinglePrecisionIsWithinItsCondition) {
 TEST(Woodbury, SolvesColoursAtOnceAndFollowsAChangeOfThem) {
   const Room room = open_room(90, 6, 3);
   const FormFactors F = form_factors_of(room);
-  const auto transport = cpu_operators().make("svd:k=90,norm=area,storage=f64,closure=none", F);
+  const auto transport = cpu_operators().make("svd:k=90,norm=area,storage=f64", F);
   const Field E = random_lights(90, 6, 5);
   Woodbury solver({*transport, room.root_area(), {.tolerance = 1e-12}});
   const auto truth = [&](const FormFactors& factors) {
@@ -91,7 +91,7 @@ TEST(Woodbury, SolvesColoursAtOnceAndFollowsAChangeOfThem) {
 
 TEST(Woodbury, RefusesASingularRoomAndWhatIsNotOfLowRank) {
   const Room room = separate_spheres(3, 20, 1);
-  const auto transport = cpu_operators().make("svd:k=3,storage=f64,closure=none", form_factors_of(room));
+  const auto transport = cpu_operators().make("svd:k=3,storage=f64", form_factors_of(room));
   Woodbury solver({*transport, room.root_area(), {}});
   EXPECT_THROW(solve(solver, Field::Ones(60, 1)), Error);
   const RoomKernel dense(room);
