@@ -1,5 +1,6 @@
 #include "experiments/apply_benchmark.hpp"
 
+#include "factorizations/blas_threads.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/stopwatch.hpp"
@@ -23,18 +24,6 @@ double load_average() {
   double average = 0;
   return getloadavg(&average, 1) == 1 ? average : 0;
 }
-
-/// OpenBLAS keeps its number of threads for the whole process: it gets its own back.
-class BlasThreads {
- public:
-  explicit BlasThreads(int count) : before_(openblas_get_num_threads()) { openblas_set_num_threads(count); }
-  ~BlasThreads() { openblas_set_num_threads(before_); }
-  BlasThreads(const BlasThreads&) = delete;
-  BlasThreads& operator=(const BlasThreads&) = delete;
-
- private:
-  int before_;
-};
 
 /// Reads a large buffer at the speed of memory, a quarter at a time: about as long as an operator takes, so
 /// that the best of many readings is as likely to be undisturbed.

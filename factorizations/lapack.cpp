@@ -1,5 +1,6 @@
 #include "factorizations/lapack.hpp"
 
+#include "factorizations/blas_threads.hpp"
 #include "foundation/error.hpp"
 
 #include <lapacke.h>
@@ -19,6 +20,14 @@ lapack_int as_lapack(Index size) {
   return static_cast<lapack_int>(size);
 }
 
+/// The threads for a matrix of this size: below it waking the others costs more than they save, and far more
+/// where the machine is busy. Never a question of how many threads parallel_for may use, so that results are
+/// the same whatever that is.
+int threads_for(Index size) {
+  constexpr Index worth_sharing = 512;
+  return size < worth_sharing ? 1 : BlasThreads::current();
+}
+
 void require_success(const char* routine, lapack_int info) {
   if (info != 0) fail("LAPACK's {} did not converge (info {}): is the matrix finite?", routine, info);
 }
@@ -26,6 +35,7 @@ void require_success(const char* routine, lapack_int info) {
 }  // namespace
 
 SymmetricEigenpairs symmetric_eigenpairs(MatrixXd matrix) {
+  const BlasThreads threads(threads_for(matrix.rows()));
   SymmetricEigenpairs result;
   result.values.resize(matrix.rows());
   if (matrix.rows() > 0)
@@ -37,6 +47,7 @@ SymmetricEigenpairs symmetric_eigenpairs(MatrixXd matrix) {
 
 SingularValues singular_value_decomposition(MatrixXd matrix) {
   const Index rows = matrix.rows(), cols = matrix.cols(), rank = std::min(rows, cols);
+  const BlasThreads threads(threads_for(rank));
   SingularValues result;
   result.U.resize(rows, rank);
   result.values.resize(rank);
@@ -52,6 +63,7 @@ SingularValues singular_value_decomposition(MatrixXd matrix) {
 
 PivotedQr pivoted_qr(MatrixXd matrix) {
   const Index rows = matrix.rows(), cols = matrix.cols(), rank = std::min(rows, cols);
+  const BlasThreads threads(threads_for(rank));
   PivotedQr result;
   result.diagonal.resize(rank);
   result.pivots.resize(static_cast<std::size_t>(cols));
@@ -77,6 +89,7 @@ LuFactors::LuFactors(MatrixXd matrix) : triangles_(std::move(matrix)) {
   const lapack_int n = as_lapack(triangles_.rows());
   reciprocal_condition_ = 1;
   if (n == 0) return;
+  const BlasThreads threads(threads_for(n));
   const double norm = triangles_.cwiseAbs().colwise().sum().maxCoeff();
   pivots_.resize(static_cast<std::size_t>(n));
   const lapack_int zero_pivot = LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, triangles_.data(), n, pivots_.data());
@@ -87,6 +100,7 @@ LuFactors::LuFactors(MatrixXd matrix) : triangles_(std::move(matrix)) {
 
 MatrixXd LuFactors::solve(MatrixXd X) const {
   const lapack_int n = as_lapack(size());
+  const BlasThreads threads(threads_for(std::min(size(), static_cast<Index>(X.cols()))));
   if (X.size() > 0)
     LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', n, as_lapack(X.cols()), triangles_.data(), n, pivots_.data(),
                    X.data(), n);
