@@ -4,6 +4,7 @@
 #include "operators/quantized_operator.hpp"
 #include "operators/svd_operator.hpp"
 #include "operators/topk_operator.hpp"
+#include "operators/two_mesh_operator.hpp"
 
 namespace radiosity {
 
@@ -44,6 +45,17 @@ OperatorRegistry cpu_operators() {
        .make = make_rsvd_operator,
        .lossy = true,
        .variants = {"rsvd:k=32,norm=area"}},
+      {.name = "2msc",
+       .summary = "two meshes with spatial coherence: what k patches send, averaged over each",
+       .defaults = "2msc:k=64,mesh=adaptive,assign=inclusion,sides=one,storage=f32",
+       .make = make_two_mesh_operator,
+       .lossy = true,
+       .variants = {"2msc:k=32,sides=two"}},
+      {.name = "sparse-v",
+       .summary = "2msc with V as sums over the elements of each patch: half the bytes, half the time",
+       .defaults = "sparse-v:k=64,mesh=adaptive,assign=inclusion,storage=f32",
+       .make = make_sparse_v_operator,
+       .lossy = true},
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/row_major_matrix.hpp"
+#include "kernels/segment_sums.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -8,6 +9,10 @@
 #include <string>
 
 namespace radiosity {
+
+/// How U and V are kept.
+template <typename Scalar>
+using FactorMatrix = RowMajorMatrix<Scalar>;
 
 /// The side interface of operators T = R U V' with U and V of n x k: what Woodbury's formula needs.
 class LowRankFactors {
@@ -29,7 +34,7 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
  public:
   /// U V' approximates F of `form_factors`; `spec` is what describe() gives.
   LowRankOperator(const FormFactors& form_factors, const Eigen::MatrixXd& U, const Eigen::MatrixXd& V,
-                  std::string spec);
+                  std::string spec, std::string remark = {});
 
   Index rank() const override { return U_.cols(); }
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override { multiply(U_, C, Y, instructions_); }
@@ -40,6 +45,7 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
 
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }
+  std::string remark() const override { return remark_; }
   double product_roundoff() const override { return sizeof(Scalar) == 8 ? 0x1p-53 : 0x1p-24; }
 
  protected:
@@ -48,9 +54,10 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
 
  private:
   InstructionSet instructions_ = best_instruction_set();
-  RowMajorMatrix<Scalar> U_;
-  RowMajorMatrix<Scalar> V_;
+  FactorMatrix<Scalar> U_;
+  FactorMatrix<Scalar> V_;
   std::string spec_;
+  std::string remark_;
 };
 
 /// T = R A^{-1/2} Q diag(values) Q' A^{1/2}: low rank in the area norm, where K is symmetric and one factor
@@ -77,7 +84,7 @@ class LowRankKernelOperator final : public KernelOperator, public LowRankFactors
 
  private:
   InstructionSet instructions_ = best_instruction_set();
-  RowMajorMatrix<Scalar> Q_;
+  FactorMatrix<Scalar> Q_;
   Eigen::VectorXd values_;
   std::string spec_;
   Certificate certificate_;

@@ -360,8 +360,8 @@ OperatorReference own_entries(const LinearOperator& transport) {
   }
   // Two products, by n and by k terms, of numbers that may cancel.
   if (const auto* factors = dynamic_cast<const LowRankFactors*>(&transport))
-    reference.entry_error += 4 * static_cast<double>(n + factors->rank()) * reference.unit_roundoff *
-                             factor_products(*factors, n);
+    reference.entry_error +=
+        4 * static_cast<double>(n + factors->rank()) * reference.unit_roundoff * factor_products(*factors, n);
   return reference;
 }
 

@@ -19,4 +19,8 @@ struct Division {
 Division divide_faces(const Scene& scene, const std::vector<bool>& used, const Covers& covers,
                       const Subdivision& subdivision);
 
+/// A mesh of the same scene as `other` with these parts of its faces (triangles and planar convex quads) as
+/// patches, face by face. Reflectance and emission are those of the materials.
+PatchMesh mesh_of_parts(const PatchMesh& other, std::vector<std::vector<Polygon>> parts);
+
 }  // namespace radiosity

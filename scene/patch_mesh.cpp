@@ -157,6 +157,18 @@ PatchMesh make_patches(const Scene& scene, const Subdivision& subdivision) {
   return mesh;
 }
 
+PatchMesh mesh_of_parts(const PatchMesh& other, std::vector<std::vector<Polygon>> parts) {
+  PatchMesh mesh;
+  mesh.scene = other.scene;
+  mesh.topology = other.topology;
+  Division division;
+  division.parts = std::move(parts);
+  add_patches(mesh, *mesh.scene, division);
+  measure_patches(mesh);
+  colour_patches(mesh, *mesh.scene);
+  return mesh;
+}
+
 std::uint64_t PatchMesh::geometry_hash() const {
   Fingerprint hash;
   const auto add = [&](const Vector3& point) { hash.add(std::span<const double>(point.data(), 3)); };

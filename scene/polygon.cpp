@@ -92,6 +92,14 @@ bool is_convex(const Polygon& polygon, const Vector3& normal, double tolerance) 
   return true;
 }
 
+bool contains(const Polygon& polygon, const Vector3& point, const Vector3& normal, double tolerance) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vector3 edge = polygon[(k + 1) % polygon.size()] - polygon[k];
+    if (edge.cross(point - polygon[k]).dot(normal) < -tolerance * edge.squaredNorm()) return false;
+  }
+  return true;
+}
+
 std::pair<Polygon, Polygon> split(const Polygon& polygon, const Vector3& from, const Vector3& to,
                                   const Vector3& normal, double tolerance) {
   const Vector3 left_direction = normal.cross(to - from).normalized();

@@ -17,6 +17,10 @@ Vector3 area_vector(const Polygon& polygon);
 /// Whether every corner turns left (or goes straight, within `tolerance`) seen from `normal`.
 bool is_convex(const Polygon& polygon, const Vector3& normal, double tolerance);
 
+/// Whether a point of its plane lies in a convex polygon that runs counter-clockwise seen from `normal`, or
+/// outside by no more than `tolerance` times the length of an edge.
+bool contains(const Polygon& polygon, const Vector3& point, const Vector3& normal, double tolerance);
+
 /// The parts of a convex polygon left and right of the line from `from` to `to` seen from `normal`. Corners
 /// within `tolerance` of the line count as on it; a part without area is empty.
 std::pair<Polygon, Polygon> split(const Polygon& polygon, const Vector3& from, const Vector3& to,
