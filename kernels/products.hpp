@@ -5,6 +5,7 @@
 #include "kernels/quantized_tiles.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
+#include "kernels/tall_matrix.hpp"
 
 namespace radiosity {
 
@@ -48,6 +49,17 @@ void multiply_transposed(const RowMajorMatrix<double>& M, const ConstFieldRef& X
 void multiply_transposed(const RowMajorMatrix<float>& M, const ConstFieldRef& X, FieldRef Y,
                          InstructionSet instructions = best_instruction_set());
 void multiply_transposed(const RowMajorMatrix<Half>& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
+
+/// Y = M C (n x c from k x c) and C = M' X (k x c from n x c) for an n x k matrix with few columns. Same
+/// promises.
+void multiply(const TallMatrix<double>& M, const ConstFieldRef& C, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply(const TallMatrix<float>& M, const ConstFieldRef& C, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const TallMatrix<double>& M, const ConstFieldRef& X, FieldRef C,
+                         InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const TallMatrix<float>& M, const ConstFieldRef& X, FieldRef C,
                          InstructionSet instructions = best_instruction_set());
 
 /// Y = M X and Y = M' X for a sparse matrix, in double. Same promises; no vector instructions: gathering X is

@@ -1,0 +1,135 @@
+#include "foundation/parallel.hpp"
+#include "kernels/blocked_field.hpp"
+#include "kernels/partial_sums.hpp"
+#include "kernels/product_shapes.hpp"
+#include "kernels/products.hpp"
+#include "kernels/tile_products.hpp"
+
+#include <algorithm>
+#include <array>
+
+// A panel of 64 rows, stored by columns, is a row of tiles of the transposed matrix: tile q holds the columns
+// 64 q ... 64 q + 63, of which the last tile has fewer.
+
+namespace radiosity {
+namespace {
+
+/// Entries that take a thread long enough, some 20 us, to be worth waking it.
+constexpr Index entries_of_a_task = 65536;
+
+/// Panels whose products with one column may be added up in single precision.
+constexpr Index run_panels = tiles_together;
+
+template <typename Scalar>
+using TallField = BlockedField<typename Multiplier<Scalar>::Type>;
+
+template <typename Scalar>
+TileTask<Scalar> tall_task(const TallMatrix<Scalar>& M, Index panel, Index tile) {
+  TileTask<Scalar> task;
+  task.entries = M.panel(panel) + tile * 64 * 64;
+  task.rows = static_cast<int>(std::min<Index>(64, M.columns() - 64 * tile));
+  return task;
+}
+
+/// Y(64 panel ..., first_column ...) = the panel times C.
+template <typename Scalar>
+void multiply_tall_panel(const TallMatrix<Scalar>& M, Index panel, const TallField<Scalar>& C,
+                         const TileProducts<Scalar>& products, Index first_column, FieldRef Y) {
+  const Index rows = std::min<Index>(64, M.rows() - 64 * panel);
+  for (Index c = 0; c < C.columns(); c += products.most_columns) {
+    const Index columns = std::min<Index>(products.most_columns, C.columns() - c);
+    alignas(64) std::array<double, 64 * TileProducts<Scalar>::most_columns> sums{};
+    for (Index tile = 0; tile < C.blocks(); ++tile) {
+      TileTask<Scalar> task = tall_task(M, panel, tile);
+      task.x_rows = C.block(tile) + 64 * c;
+      task.x_rows_scale = C.scale(tile) + c;
+      task.y_columns = sums.data();
+      products.to_columns[static_cast<std::size_t>(columns - 1)](task);
+    }
+    for (Index j = 0; j < columns; ++j) {
+      double* y = Y.col(first_column + c + j).data() + 64 * panel;
+      for (Index i = 0; i < rows; ++i) y[i] = M.scale() * sums[static_cast<std::size_t>(64 * j + i)];
+    }
+  }
+}
+
+template <typename Scalar>
+void multiply_tall(const TallMatrix<Scalar>& M, const ConstFieldRef& C, FieldRef Y,
+                   InstructionSet instructions) {
+  check_product_shapes(M.rows(), M.columns(), C, Y);
+  const TileProducts<Scalar> products = tile_products<Scalar>(instructions);
+  const Index grain = std::max<Index>(entries_of_a_task / (64 * std::max<Index>(M.columns(), 16)), 1);
+  for (Index first = 0; first < C.cols(); first += columns_at_once) {
+    const TallField<Scalar> blocked(C, first, std::min(columns_at_once, C.cols() - first));
+    parallel_for(
+        static_cast<std::size_t>(M.panels()),
+        [&](std::size_t panel) {
+          multiply_tall_panel(M, static_cast<Index>(panel), blocked, products, first, Y);
+        },
+        static_cast<std::size_t>(grain));
+  }
+}
+
+/// Adds what one run of panels contributes to M' X to the sums of a chunk.
+template <typename Scalar>
+void multiply_run_transposed(const TallMatrix<Scalar>& M, Index run, const TallField<Scalar>& X,
+                             const TileProducts<Scalar>& products, Index chunk, PartialSums& sums) {
+  alignas(64) std::array<typename Multiplier<Scalar>::Type, row_lanes_size<Scalar>> lanes;
+  const Index begin = run * run_panels;
+  const Index end = std::min(begin + run_panels, M.panels());
+  for (Index tile = 0; 64 * tile < M.columns(); ++tile)
+    for (Index c = 0; c < X.columns(); c += products.most_columns) {
+      const Index columns = std::min<Index>(products.most_columns, X.columns() - c);
+      for (Index panel = begin; panel < end; ++panel) {
+        TileTask<Scalar> task = tall_task(M, panel, tile);
+        task.row_lanes = lanes.data();
+        task.first = panel == begin;
+        task.last = panel + 1 == end;
+        task.x_columns = X.block(panel) + 64 * c;
+        task.x_columns_scale = X.scale(panel) + c;
+        task.y_rows = sums.block(chunk, tile) + 64 * c;
+        products.to_rows[static_cast<std::size_t>(columns - 1)](task);
+      }
+    }
+}
+
+template <typename Scalar>
+void multiply_tall_transposed(const TallMatrix<Scalar>& M, const ConstFieldRef& X, FieldRef C,
+                              InstructionSet instructions) {
+  check_product_shapes(M.columns(), M.rows(), X, C);
+  const TileProducts<Scalar> products = tile_products<Scalar>(instructions);
+  const Index runs = (M.panels() + run_panels - 1) / run_panels;
+  const Index chunks = std::clamp<Index>(std::min(runs, M.rows() * M.columns() / entries_of_a_task), 1, 64);
+  for (Index first = 0; first < X.cols(); first += columns_at_once) {
+    const Index columns = std::min(columns_at_once, X.cols() - first);
+    const TallField<Scalar> blocked(X, first, columns);
+    PartialSums sums((M.columns() + 63) / 64, columns,
+                     std::vector<Index>(static_cast<std::size_t>(chunks), 0));
+    parallel_for(static_cast<std::size_t>(chunks), [&](std::size_t index) {
+      const auto chunk = static_cast<Index>(index);
+      sums.start(chunk);
+      for (Index run = runs * chunk / chunks; run < runs * (chunk + 1) / chunks; ++run)
+        multiply_run_transposed(M, run, blocked, products, chunk, sums);
+    });
+    sums.finish(M.scale(), first, C);
+  }
+}
+
+}  // namespace
+
+void multiply(const TallMatrix<double>& M, const ConstFieldRef& C, FieldRef Y, InstructionSet instructions) {
+  multiply_tall(M, C, Y, instructions);
+}
+void multiply(const TallMatrix<float>& M, const ConstFieldRef& C, FieldRef Y, InstructionSet instructions) {
+  multiply_tall(M, C, Y, instructions);
+}
+void multiply_transposed(const TallMatrix<double>& M, const ConstFieldRef& X, FieldRef C,
+                         InstructionSet instructions) {
+  multiply_tall_transposed(M, X, C, instructions);
+}
+void multiply_transposed(const TallMatrix<float>& M, const ConstFieldRef& X, FieldRef C,
+                         InstructionSet instructions) {
+  multiply_tall_transposed(M, X, C, instructions);
+}
+
+}  // namespace radiosity
