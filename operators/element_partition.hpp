@@ -2,42 +2,49 @@
 
 #include "form_factors/form_factors.hpp"
 #include "foundation/spec.hpp"
+#include "kernels/segments.hpp"
 #include "scene/coarse_mesh.hpp"
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace radiosity {
 
-/// The n elements of a scene in k patches, as V of the two-mesh method needs them (document 004,
-/// section 4.1).
+/// The n elements of a scene in k patches (document 004, section 3.2).
 class ElementPartition {
  public:
   /// patch_of_element: P(e), n numbers 0 ... k - 1 of which each is there; area: n.
-  ElementPartition(std::vector<int> patch_of_element, const Eigen::VectorXd& area);
+  ElementPartition(std::vector<std::int32_t> patch_of_element, Eigen::VectorXd area);
 
-  Index elements() const { return static_cast<Index>(patch_of_element_.size()); }
+  Index elements() const { return element_area_.size(); }
   Index patches() const { return patch_area_.size(); }
-  const std::vector<int>& patch_of_element() const { return patch_of_element_; }
+  const std::vector<std::int32_t>& patch_of_element() const { return patch_of_element_; }
 
-  /// The elements sorted by patch, those of one patch in the order of the mesh: n. The document's I are the
-  /// k + 1 offsets: patch p has the sorted places offsets[p] ... offsets[p + 1] - 1.
-  const std::vector<Index>& order() const { return order_; }
-  const std::vector<Index>& offsets() const { return offsets_; }
-
-  /// Sum of the areas of a patch's elements: k.
+  /// A_e, n, and the sums over the elements of each patch, k.
+  const Eigen::VectorXd& element_area() const { return element_area_; }
   const Eigen::VectorXd& patch_area() const { return patch_area_; }
 
   /// Whether the elements of each patch are equal in area (to 1e-12): V then is 1 where it is not 0.
   bool equal_areas() const { return equal_areas_; }
 
+  /// What U is divided by: c_p, the number of elements, where areas are equal, else A_p. k.
+  Eigen::VectorXd divisors() const;
+
+  /// V: 1 or A_e in the column of each element's patch (Equation 6, and its form for unequal areas).
+  Segments right_factor() const;
+
+  /// W: (A_e / A_p)^{1/2}, whose columns have length 1.
+  Segments orthonormal_indicators() const;
+
  private:
-  std::vector<int> patch_of_element_;
-  std::vector<Index> order_;
-  std::vector<Index> offsets_;
+  Segments sorted(const std::vector<double>& weights) const;
+
+  std::vector<std::int32_t> patch_of_element_;
+  Eigen::VectorXd element_area_;
   Eigen::VectorXd patch_area_;
   bool equal_areas_ = true;
 };

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "kernels/row_major_matrix.hpp"
-#include "kernels/segment_sums.hpp"
+#include "kernels/tall_matrix.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -12,7 +11,7 @@ namespace radiosity {
 
 /// How U and V are kept.
 template <typename Scalar>
-using FactorMatrix = RowMajorMatrix<Scalar>;
+using FactorMatrix = TallMatrix<Scalar>;
 
 /// The side interface of operators T = R U V' with U and V of n x k: what Woodbury's formula needs.
 class LowRankFactors {
@@ -36,7 +35,7 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
   LowRankOperator(const FormFactors& form_factors, const Eigen::MatrixXd& U, const Eigen::MatrixXd& V,
                   std::string spec, std::string remark = {});
 
-  Index rank() const override { return U_.cols(); }
+  Index rank() const override { return U_.columns(); }
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override { multiply(U_, C, Y, instructions_); }
   void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override {
     multiply_transposed(V_, X, C, instructions_);
@@ -69,7 +68,7 @@ class LowRankKernelOperator final : public KernelOperator, public LowRankFactors
   LowRankKernelOperator(const FormFactors& form_factors, const Eigen::MatrixXd& Q,
                         const Eigen::VectorXd& values, std::optional<double> error, std::string spec);
 
-  Index rank() const override { return Q_.cols(); }
+  Index rank() const override { return Q_.columns(); }
   /// U = A^{-1/2} Q diag(values), V = A^{1/2} Q.
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
   void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override;

@@ -1,6 +1,6 @@
 #include "operators/sparse_v_operator.hpp"
 
-#include "form_factors/patch_sums.hpp"
+#include "kernels/segment_sums.hpp"
 #include "operators/storage_choice.hpp"
 
 #include <utility>
@@ -8,15 +8,13 @@
 namespace radiosity {
 
 template <typename Scalar>
-SparseVOperator<Scalar>::SparseVOperator(const FormFactors& form_factors, ElementPartition partition,
-                                         FactorMatrix<Scalar> U, std::string spec, std::string remark)
+SparseVOperator<Scalar>::SparseVOperator(const FormFactors& form_factors, Segments V, FactorMatrix<Scalar> U,
+                                         std::string spec, std::string remark)
     : MatrixOperator(form_factors),
-      partition_(std::move(partition)),
+      V_(std::move(V)),
       U_(std::move(U)),
       spec_(std::move(spec)),
-      remark_(std::move(remark)) {
-  if (!partition_.equal_areas()) weights_ = form_factors.mesh->area(partition_.order());
-}
+      remark_(std::move(remark)) {}
 
 template <typename Scalar>
 void SparseVOperator<Scalar>::multiply_left_sorted(const ConstFieldRef& C, FieldRef Y) const {
@@ -25,19 +23,20 @@ void SparseVOperator<Scalar>::multiply_left_sorted(const ConstFieldRef& C, Field
 
 template <typename Scalar>
 void SparseVOperator<Scalar>::multiply_right_transposed_sorted(const ConstFieldRef& X, FieldRef C) const {
-  segment_sums(partition_.offsets(), weights_, X, C);
+  segment_sums(V_, X, C, RowOrder::sorted);
 }
 
 template <typename Scalar>
 void SparseVOperator<Scalar>::multiply_left(const ConstFieldRef& C, FieldRef Y) const {
+  if (V_.order().empty()) return multiply_left_sorted(C, Y);
   Field sorted(size(), C.cols());
   multiply_left_sorted(C, sorted);
-  Y(partition_.order(), Eigen::all) = sorted;
+  Y(V_.order(), Eigen::all) = sorted;
 }
 
 template <typename Scalar>
 void SparseVOperator<Scalar>::multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const {
-  segment_sums(partition_.offsets(), partition_.order(), weights_, X, C);
+  segment_sums(V_, X, C);
 }
 
 template <typename Scalar>
@@ -49,25 +48,22 @@ void SparseVOperator<Scalar>::multiply_matrix(const ConstFieldRef& X, FieldRef Y
 
 template <typename Scalar>
 void SparseVOperator<Scalar>::multiply_matrix_transposed(const ConstFieldRef& X, FieldRef Y) const {
-  const Field sorted = X(partition_.order(), Eigen::all);
   Field coefficients(rank(), X.cols());
-  multiply_transposed(U_, sorted, coefficients, instructions_);
-  for (Index p = 0; p < rank(); ++p)
-    for (Index s = partition_.offsets()[static_cast<std::size_t>(p)];
-         s < partition_.offsets()[static_cast<std::size_t>(p) + 1]; ++s) {
-      const double weight = weights_.size() > 0 ? weights_[s] : 1;
-      Y.row(partition_.order()[static_cast<std::size_t>(s)]) = weight * coefficients.row(p);
-    }
+  if (V_.order().empty()) {
+    multiply_transposed(U_, X, coefficients, instructions_);
+  } else {
+    const Field sorted = X(V_.order(), Eigen::all);
+    multiply_transposed(U_, sorted, coefficients, instructions_);
+  }
+  spread_segments(V_, coefficients, Y);
 }
 
 template <typename Scalar>
 ByteCount SparseVOperator<Scalar>::bytes() const {
-  ByteCount bytes{{{"U", U_.entry_bytes()},
-                   {"offsets", partition_.offsets().size() * sizeof(Index)},
-                   {"permutation", partition_.order().size() * sizeof(Index)},
-                   {"diagonals", diagonal_bytes(size(), channels())}}};
-  if (weights_.size() > 0)
-    bytes.parts.emplace_back("areas", static_cast<std::size_t>(weights_.size()) * sizeof(double));
+  ByteCount bytes{{{"U", U_.entry_bytes()}, {"offsets", V_.offset_bytes()}}};
+  if (V_.order_bytes() > 0) bytes.parts.emplace_back("permutation", V_.order_bytes());
+  if (V_.weight_bytes() > 0) bytes.parts.emplace_back("areas", V_.weight_bytes());
+  bytes.parts.emplace_back("diagonals", diagonal_bytes(size(), channels()));
   return bytes;
 }
 

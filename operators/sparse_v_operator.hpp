@@ -1,13 +1,10 @@
 #pragma once
 
 #include "form_factors/form_factors.hpp"
-#include "foundation/spec.hpp"
-#include "operators/element_partition.hpp"
+#include "kernels/segments.hpp"
 #include "operators/low_rank_operator.hpp"
 
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace radiosity {
 
@@ -18,14 +15,14 @@ namespace radiosity {
 template <typename Scalar>
 class SparseVOperator final : public MatrixOperator, public LowRankFactors {
  public:
-  /// `U`: n x k in sorted order, F_ep / c_p for elements of equal area, F_ep / A_p otherwise. `form_factors`
-  /// may lack F: areas and reflectances are taken from its mesh.
-  SparseVOperator(const FormFactors& form_factors, ElementPartition partition, FactorMatrix<Scalar> U,
-                  std::string spec, std::string remark);
+  /// `V`: ElementPartition::right_factor(); `U`: n x k, its rows in the sorted order of V. `form_factors` may
+  /// lack F: areas and reflectances are taken from its mesh.
+  SparseVOperator(const FormFactors& form_factors, Segments V, FactorMatrix<Scalar> U, std::string spec,
+                  std::string remark);
 
-  const ElementPartition& partition() const { return partition_; }
+  const Segments& right_factor() const { return V_; }
 
-  Index rank() const override { return U_.cols(); }
+  Index rank() const override { return U_.columns(); }
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
   void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override;
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
@@ -45,8 +42,7 @@ class SparseVOperator final : public MatrixOperator, public LowRankFactors {
 
  private:
   InstructionSet instructions_ = best_instruction_set();
-  ElementPartition partition_;
-  Eigen::VectorXd weights_;  ///< V by sorted element; empty: 1
+  Segments V_;
   FactorMatrix<Scalar> U_;
   std::string spec_;
   std::string remark_;

@@ -43,7 +43,7 @@ std::unique_ptr<LinearOperator> make_one_sided(const FormFactors& form_factors, 
 template <typename Scalar>
 std::unique_ptr<LinearOperator> make_two_sided(const FormFactors& form_factors, const ChosenPartition& chosen,
                                                std::string spec) {
-  return std::make_unique<TwoSidedOperator<Scalar>>(form_factors, chosen.partition,
+  return std::make_unique<TwoSidedOperator<Scalar>>(form_factors, chosen.partition.orthonormal_indicators(),
                                                     kernel_on_patches(form_factors, chosen.partition),
                                                     std::move(spec), chosen.remark);
 }
@@ -51,22 +51,18 @@ std::unique_ptr<LinearOperator> make_two_sided(const FormFactors& form_factors, 
 template <typename Scalar>
 std::unique_ptr<LinearOperator> make_sparse_v(const FormFactors& form_factors, const ChosenPartition& chosen,
                                               std::string spec) {
-  const MatrixXd U =
-      two_mesh_left_factor(form_factors, chosen.partition)(chosen.partition.order(), Eigen::all);
-  return std::make_unique<SparseVOperator<Scalar>>(form_factors, chosen.partition, FactorMatrix<Scalar>(U),
+  Segments V = chosen.partition.right_factor();
+  MatrixXd U = two_mesh_left_factor(form_factors, chosen.partition);
+  if (!V.order().empty()) U = MatrixXd(U(V.order(), Eigen::all));
+  return std::make_unique<SparseVOperator<Scalar>>(form_factors, std::move(V), FactorMatrix<Scalar>(U),
                                                    std::move(spec), chosen.remark);
 }
 
 }  // namespace
 
 MatrixXd two_mesh_left_factor(const FormFactors& form_factors, const ElementPartition& partition) {
-  VectorXd divisor = partition.patch_area();
-  if (partition.equal_areas())
-    for (Index p = 0; p < divisor.size(); ++p)
-      divisor[p] = static_cast<double>(partition.offsets()[static_cast<std::size_t>(p) + 1] -
-                                       partition.offsets()[static_cast<std::size_t>(p)]);
   return patch_sums(form_factors, partition.patch_of_element(), partition.patches()) *
-         divisor.cwiseInverse().asDiagonal();
+         partition.divisors().cwiseInverse().asDiagonal();
 }
 
 std::unique_ptr<LinearOperator> make_two_mesh_operator(Spec& spec, const FormFactors& form_factors) {

@@ -13,7 +13,7 @@ namespace radiosity {
 /// with spatial coherence (document 004, Algorithm 1 and Equation 6) with U from the assembled F. sides=one
 /// keeps both U and V in full, as the original method does (`sparse-v` is the same operator with V sparse);
 /// two is the symmetric variant T P + P T - P T P, P the mean over each patch: K W W' + W W' K - W W' K W W'
-/// with one n x k factor K W, W the normalized indicators of the patches times A^{1/2} (methods.md, layers).
+/// with one stored factor (operators/two_sided_operator.hpp).
 /// k counts at most n.
 std::unique_ptr<LinearOperator> make_two_mesh_operator(Spec& spec, const FormFactors& form_factors);
 

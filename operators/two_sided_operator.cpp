@@ -1,74 +1,69 @@
 #include "operators/two_sided_operator.hpp"
 
+#include "kernels/segment_sums.hpp"
 #include "operators/storage_choice.hpp"
 
 #include <utility>
 
 namespace radiosity {
+namespace {
+
+/// X - 1/2 W (W'X).
+Eigen::MatrixXd symmetric_half(const Segments& W, const Eigen::MatrixXd& X) {
+  Field products(X.cols(), X.cols());
+  segment_sums(W, X, products);
+  Field spread(X.rows(), X.cols());
+  spread_segments(W, products, spread);
+  return X - 0.5 * spread;
+}
+
+}  // namespace
 
 template <typename Scalar>
-TwoSidedOperator<Scalar>::TwoSidedOperator(const FormFactors& form_factors, ElementPartition partition,
+TwoSidedOperator<Scalar>::TwoSidedOperator(const FormFactors& form_factors, Segments W,
                                            const Eigen::MatrixXd& X, std::string spec, std::string remark)
     : KernelOperator(form_factors),
-      partition_(std::move(partition)),
-      X_(X),
+      W_(std::move(W)),
+      Z_(symmetric_half(W_, X)),
       spec_(std::move(spec)),
-      remark_(std::move(remark)) {
-  indicator_.resize(X.rows());
-  for (Index e = 0; e < X.rows(); ++e)
-    indicator_[e] =
-        root_area()[e] /
-        std::sqrt(partition_.patch_area()[partition_.patch_of_element()[static_cast<std::size_t>(e)]]);
-  // From the numbers as they are stored, so that the two halves fit.
-  Field stored(X.rows(), X.cols());
-  multiply(X_, Field::Identity(X.cols(), X.cols()), stored, instructions_);
-  const Eigen::MatrixXd products = patch_components(stored);
-  patch_products_ = 0.5 * (products + products.transpose());
+      remark_(std::move(remark)) {}
+
+template <typename Scalar>
+Field TwoSidedOperator<Scalar>::components(const ConstFieldRef& Y) const {
+  Field result(rank(), Y.cols());
+  segment_sums(W_, Y, result.topRows(Z_.columns()));
+  multiply_transposed(Z_, Y, result.bottomRows(Z_.columns()), instructions_);
+  return result;
 }
 
 template <typename Scalar>
-Field TwoSidedOperator<Scalar>::patch_components(const ConstFieldRef& Y) const {
-  Field components(X_.cols(), Y.cols());
-  segment_sums(partition_.offsets(), partition_.order(), indicator_(partition_.order()), Y, components);
-  return components;
-}
-
-template <typename Scalar>
-Field TwoSidedOperator<Scalar>::combine(const ConstFieldRef& C1, const ConstFieldRef& C2) const {
-  Field Y(size(), C1.cols());
-  multiply(X_, C1, Y, instructions_);
-  Y += indicator_.asDiagonal() * C2(partition_.patch_of_element(), Eigen::all);
-  return Y;
+Field TwoSidedOperator<Scalar>::combine(const ConstFieldRef& C) const {
+  Field Y(size(), C.cols());
+  multiply(Z_, C.topRows(Z_.columns()), Y, instructions_);
+  Field spread(size(), C.cols());
+  spread_segments(W_, C.bottomRows(Z_.columns()), spread);
+  return Y + spread;
 }
 
 template <typename Scalar>
 void TwoSidedOperator<Scalar>::multiply_kernel(const ConstFieldRef& X, FieldRef Y) const {
-  const Field components = patch_components(X);
-  Field images(X_.cols(), X.cols());
-  multiply_transposed(X_, X, images, instructions_);
-  Y = combine(components, images - patch_products_ * components);
+  Y = combine(components(X));
 }
 
 template <typename Scalar>
 void TwoSidedOperator<Scalar>::multiply_left(const ConstFieldRef& C, FieldRef Y) const {
-  Y = root_area().cwiseInverse().asDiagonal() * combine(C.topRows(X_.cols()), C.bottomRows(X_.cols()));
+  Y = root_area().cwiseInverse().asDiagonal() * combine(C);
 }
 
 template <typename Scalar>
 void TwoSidedOperator<Scalar>::multiply_right_transposed(const ConstFieldRef& Y, FieldRef C) const {
-  const Field scaled = root_area().asDiagonal() * Y;
-  const Field components = patch_components(scaled);
-  Field images(X_.cols(), Y.cols());
-  multiply_transposed(X_, scaled, images, instructions_);
-  C.topRows(X_.cols()) = components;
-  C.bottomRows(X_.cols()) = images - patch_products_ * components;
+  C = components(root_area().asDiagonal() * Y);
 }
 
 template <typename Scalar>
 ByteCount TwoSidedOperator<Scalar>::bytes() const {
-  return {{{"X", X_.entry_bytes()},
-           {"patch products", static_cast<std::size_t>(patch_products_.size()) * sizeof(double)},
-           {"indicators", static_cast<std::size_t>(size()) * (sizeof(double) + sizeof(int) + sizeof(Index))},
+  return {{{"Z", Z_.entry_bytes()},
+           {"indicators", W_.weight_bytes() + W_.order_bytes() + W_.offset_bytes()},
            {"diagonals", diagonal_bytes(size(), channels())}}};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "operators/element_partition.hpp"
+#include "kernels/segments.hpp"
 #include "operators/low_rank_operator.hpp"
 
 #include <string>
@@ -8,18 +8,18 @@
 namespace radiosity {
 
 /// T P + P T - P T P with P the area-weighted mean over each patch of a coarse mesh (methods.md, layers):
-/// what it leaves out, (I - P) T (I - P), is what varies within patches on both ends. Symmetric: the kernel
-/// is X W' + W X' - W (W'X) W' with X = K W, n x k, and W = indicators of the patches times A^{1/2}, columns
-/// of length 1. One stored factor, rank 2k for Woodbury's formula. Scalar: double or float.
+/// what it leaves out, (I - P) T (I - P), is what varies within patches on both ends. Symmetric: with W =
+/// indicators of the patches times A^{1/2}, columns of length 1, and X = K W the kernel is X W' + W X' - W
+/// (W'X) W' = Z W' + W Z', Z = X - 1/2 W (W'X): one stored factor of n x k. Scalar: double or float.
 template <typename Scalar>
 class TwoSidedOperator final : public KernelOperator, public LowRankFactors {
  public:
-  /// X: n x k, rows in the order of the mesh.
-  TwoSidedOperator(const FormFactors& form_factors, ElementPartition partition, const Eigen::MatrixXd& X,
-                   std::string spec, std::string remark);
+  /// W: ElementPartition::orthonormal_indicators(); X = K W: n x k, rows in the order of the mesh.
+  TwoSidedOperator(const FormFactors& form_factors, Segments W, const Eigen::MatrixXd& X, std::string spec,
+                   std::string remark);
 
-  /// Twice the number of patches: U = A^{-1/2} [X, W], V = A^{1/2} [W, X - W (W'X)].
-  Index rank() const override { return 2 * X_.cols(); }
+  /// Twice the number of patches: U = A^{-1/2} [Z, W], V = A^{1/2} [W, Z].
+  Index rank() const override { return 2 * Z_.columns(); }
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
   void multiply_right_transposed(const ConstFieldRef& Y, FieldRef C) const override;
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
@@ -33,16 +33,14 @@ class TwoSidedOperator final : public KernelOperator, public LowRankFactors {
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override;
 
  private:
-  // W' Y for Y in the order of the mesh.
-  Field patch_components(const ConstFieldRef& Y) const;
-  // X C1 + W C2, in the order of the mesh.
-  Field combine(const ConstFieldRef& C1, const ConstFieldRef& C2) const;
+  // W' Y and Z' Y.
+  Field components(const ConstFieldRef& Y) const;
+  // Z C1 + W C2 for C = [C1; C2].
+  Field combine(const ConstFieldRef& C) const;
 
   InstructionSet instructions_ = best_instruction_set();
-  ElementPartition partition_;
-  FactorMatrix<Scalar> X_;          ///< n x k
-  Eigen::MatrixXd patch_products_;  ///< W'X, k x k, symmetric
-  Eigen::VectorXd indicator_;       ///< the entry of W in each row, n
+  Segments W_;
+  FactorMatrix<Scalar> Z_;
   std::string spec_;
   std::string remark_;
 };
