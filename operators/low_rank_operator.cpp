@@ -11,8 +11,8 @@ namespace radiosity {
 
 template <typename Scalar>
 LowRankOperator<Scalar>::LowRankOperator(const FormFactors& form_factors, const Eigen::MatrixXd& U,
-                                         const Eigen::MatrixXd& V, std::string spec)
-    : MatrixOperator(form_factors), U_(U), V_(V), spec_(std::move(spec)) {}
+                                         const Eigen::MatrixXd& V, std::string spec, std::string remark)
+    : MatrixOperator(form_factors), U_(U), V_(V), spec_(std::move(spec)), remark_(std::move(remark)) {}
 
 template <typename Scalar>
 ByteCount LowRankOperator<Scalar>::bytes() const {

@@ -29,7 +29,7 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
  public:
   /// U V' approximates F of `form_factors`; `spec` is what describe() gives.
   LowRankOperator(const FormFactors& form_factors, const Eigen::MatrixXd& U, const Eigen::MatrixXd& V,
-                  std::string spec);
+                  std::string spec, std::string remark = {});
 
   Index rank() const override { return U_.cols(); }
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override { multiply(U_, C, Y, instructions_); }
@@ -40,6 +40,7 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
 
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }
+  std::string remark() const override { return remark_; }
   double product_roundoff() const override { return sizeof(Scalar) == 8 ? 0x1p-53 : 0x1p-24; }
 
  protected:
@@ -51,6 +52,7 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
   RowMajorMatrix<Scalar> U_;
   RowMajorMatrix<Scalar> V_;
   std::string spec_;
+  std::string remark_;
 };
 
 /// T = R A^{-1/2} Q diag(values) Q' A^{1/2}: low rank in the area norm, where K is symmetric and one factor
