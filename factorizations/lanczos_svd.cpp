@@ -4,13 +4,10 @@
 #include "foundation/error.hpp"
 
 #include <Spectra/SymEigsSolver.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
-#include <vector>
 
 namespace radiosity {
 namespace {
@@ -22,7 +19,7 @@ using Eigen::VectorXd;
 constexpr double accuracy = 1e-13;  // of residuals, relative to the largest value
 constexpr std::uint64_t norm_stream = 1000;
 
-/// ||S||_2 to a factor of 2 or better: that of the largest of some vectors after steps of power iteration.
+/// ||S||_2 from below, by some steps of power iteration: within a factor of 2 or so.
 double estimate_norm(const BlockProduct& S, Index n, std::uint64_t seed) {
   constexpr int steps = 10;
   MatrixXd X = normal_numbers(n, 1, seed + norm_stream);
@@ -72,9 +69,9 @@ class DeflatedOperator {
 /// Which end of the spectrum.
 enum class Wanted { largest, largest_magnitude };
 
-/// What is largest comes first.
-double rank_of(double value, Wanted wanted) {
-  return wanted == Wanted::largest ? value : std::abs(value);
+SymmetricEigenpairs largest(const SymmetricEigenpairs& rising, Index count) {
+  count = std::min(count, static_cast<Index>(rising.values.size()));
+  return {rising.values.tail(count).reverse(), rising.vectors.rightCols(count).rowwise().reverse()};
 }
 
 /// Eigenvectors of a symmetric S at the wanted end, found in rounds.
@@ -112,14 +109,14 @@ class RestartedSearch {
     MatrixXd start = normal_numbers(n_, 1, options_.seed + static_cast<std::uint64_t>(round));
     if (pairs_.vectors.cols() > 0) start -= pairs_.vectors * (pairs_.vectors.transpose() * start);
     solver.init(start.data());
-    const Index converged =
-        solver.compute(wanted_ == Wanted::largest ? Spectra::SortRule::LargestAlge
-                                                  : Spectra::SortRule::LargestMagn,
-                       options_.restarts, 0.1 * accuracy);
+    const Index converged = solver.compute(
+        wanted_ == Wanted::largest ? Spectra::SortRule::LargestAlge : Spectra::SortRule::LargestMagn,
+        options_.restarts, 0.1 * accuracy);
     if (solver.info() != Spectra::CompInfo::Successful)
-      fail("Lanczos did not converge: {} of {} values after {} restarts and {} products; ask for fewer values "
-           "or use a dense decomposition",
-           converged, count, options_.restarts, solver.num_operations());
+      fail(
+          "Lanczos did not converge: {} of {} values after {} restarts and {} products; ask for fewer values "
+          "or use a dense decomposition",
+          converged, count, options_.restarts, solver.num_operations());
     MatrixXd together(n_, pairs_.vectors.cols() + count);
     together << pairs_.vectors, solver.eigenvectors();
     pairs_.vectors = pivoted_qr(together).Q;
@@ -129,14 +126,10 @@ class RestartedSearch {
   void keep(Index rank) {
     const MatrixXd projected = pairs_.vectors.transpose() * (S_(pairs_.vectors) / norm_);
     const SymmetricEigenpairs ritz = symmetric_eigenpairs(0.5 * (projected + projected.transpose()));
-    std::vector<Index> order(static_cast<std::size_t>(ritz.values.size()));
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-      return rank_of(ritz.values[a], wanted_) > rank_of(ritz.values[b], wanted_);
-    });
-    order.resize(std::min(order.size(), static_cast<std::size_t>(rank)));
-    pairs_.values = norm_ * ritz.values(order);
-    pairs_.vectors = pairs_.vectors * ritz.vectors(Eigen::all, order);
+    const SymmetricEigenpairs first =
+        wanted_ == Wanted::largest ? largest(ritz, rank) : largest_in_magnitude(ritz, rank);
+    pairs_.values = norm_ * first.values;
+    pairs_.vectors = pairs_.vectors * first.vectors;
   }
 
   bool nothing_larger_is_left(int round) const {
@@ -149,7 +142,8 @@ class RestartedSearch {
       Y -= Z * (Z.transpose() * Y);
       return Y;
     };
-    const double smallest = rank_of(pairs_.values.tail(1)[0], wanted_) / norm_;
+    const double last = pairs_.values.tail(1)[0] / norm_;
+    const double smallest = wanted_ == Wanted::largest ? last : std::abs(last);
     const double allowed = smallest + noticeable * std::abs(smallest) + accuracy;
     const EigenvalueInterval found =
         eigenvalue_interval(rest, n_, confidence, options_.seed + static_cast<std::uint64_t>(round));
@@ -208,14 +202,8 @@ SymmetricEigenpairs lanczos_eigenpairs(const MatrixProducts& A, const LanczosOpt
   require_lanczos_options(options);
   const Index n = A.rows;
   if (options.rank == 0 || n == 0) return {VectorXd(0), MatrixXd(n, 0)};
-  if (options.rank >= n) {
-    const SymmetricEigenpairs all = symmetric_eigenpairs(A.apply(MatrixXd::Identity(n, n)));
-    std::vector<Index> order(static_cast<std::size_t>(n));
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Index a, Index b) { return std::abs(all.values[a]) > std::abs(all.values[b]); });
-    return {all.values(order), all.vectors(Eigen::all, order)};
-  }
+  if (options.rank >= n)
+    return largest_in_magnitude(symmetric_eigenpairs(A.apply(MatrixXd::Identity(n, n))), n);
   const SymmetricEigenpairs pairs = RestartedSearch(A.apply, n, Wanted::largest_magnitude, options).run();
   require_small_residual(A.apply(pairs.vectors) - pairs.vectors * pairs.values.asDiagonal(),
                          pairs.values.cwiseAbs().maxCoeff());

@@ -22,7 +22,8 @@ struct LanczosOptions {
 /// until a random search there meets nothing larger than the smallest that is kept.
 SingularValues lanczos_svd(const MatrixProducts& A, const LanczosOptions& options);
 
-/// The eigenpairs of a symmetric A that are largest in magnitude, falling in magnitude, alike. All of them
+/// The eigenpairs of a symmetric A that are largest in magnitude, falling in magnitude, alike: ||A v -
+/// value v|| at most 1e-13 of the largest. All of them
 /// (rank >= n) come from LAPACK, from n products.
 SymmetricEigenpairs lanczos_eigenpairs(const MatrixProducts& A, const LanczosOptions& options);
 

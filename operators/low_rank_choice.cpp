@@ -17,6 +17,11 @@ LowRankChoice LowRankChoice::take(Spec& spec) {
   return choice;
 }
 
+Eigen::VectorXd LowRankChoice::root_weight(const PatchMesh& mesh) const {
+  if (in_area_norm()) return mesh.area.cwiseSqrt();
+  return Eigen::VectorXd::Ones(mesh.patch_count());
+}
+
 std::string LowRankChoice::text() const {
   return fmt::format("k={},norm={},storage={}", rank, in_area_norm() ? "area" : "plain", storage);
 }

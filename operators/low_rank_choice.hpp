@@ -21,6 +21,9 @@ struct LowRankChoice {
 
   bool in_area_norm() const { return norm == FactorizationNorm::area; }
 
+  /// Weights under which functions of length 1 are so in this norm: A^{1/2}, or 1 in the plain norm; n.
+  Eigen::VectorXd root_weight(const PatchMesh& mesh) const;
+
   /// The keys as a spec has them.
   std::string text() const;
 

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -20,28 +19,6 @@ namespace radiosity {
 namespace {
 
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-/// Eigenpairs of largest magnitude, and the magnitude of the first that is left out.
-struct Truncated {
-  MatrixXd Q;
-  VectorXd values;
-  double left_out = 0;
-};
-
-Truncated truncate(const SymmetricEigenpairs& pairs, Index rank) {
-  std::vector<Index> order(static_cast<std::size_t>(pairs.values.size()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return std::fabs(pairs.values[a]) > std::fabs(pairs.values[b]); });
-  const auto kept = std::min(order.size(), static_cast<std::size_t>(rank));
-  Truncated result;
-  if (kept < order.size()) result.left_out = std::fabs(pairs.values[order[kept]]);
-  order.resize(kept);
-  result.Q = pairs.vectors(Eigen::all, order);
-  result.values = pairs.values(order);
-  return result;
-}
 
 LowRankPair scaled_left(const SingularValues& svd, Index rank) {
   return {svd.U.leftCols(rank) * svd.values.head(rank).asDiagonal(), svd.V.leftCols(rank)};
@@ -71,9 +48,13 @@ std::unique_ptr<LinearOperator> make_svd_operator(Spec& spec, const FormFactors&
   const std::string described = fmt::format("svd:{},method={}", choice.text(), method);
   if (method == "lanczos") return make_lanczos_operator(choice, form_factors, described);
   if (choice.in_area_norm()) {
-    const Truncated kept = truncate(symmetric_eigenpairs(materialize(*form_factors.kernel)), choice.rank);
-    return make_stored_as<LowRankKernelOperator>(choice.storage, form_factors, kept.Q, kept.values,
-                                                 std::optional<double>(kept.left_out), described);
+    const SymmetricEigenpairs all = symmetric_eigenpairs(materialize(*form_factors.kernel));
+    const SymmetricEigenpairs more = largest_in_magnitude(all, choice.rank + 1);
+    const SymmetricEigenpairs kept = largest_in_magnitude(more, choice.rank);
+    const bool left_out = more.values.size() > kept.values.size();
+    return make_stored_as<LowRankKernelOperator>(
+        choice.storage, form_factors, kept.vectors, kept.values,
+        std::optional<double>(left_out ? std::fabs(more.values.tail(1)[0]) : 0), described);
   }
   const SingularValues svd = singular_value_decomposition(form_factors.matrix());
   const Index rank = std::min(choice.rank, svd.values.size());
@@ -100,7 +81,7 @@ std::unique_ptr<LinearOperator> make_rsvd_operator(Spec& spec, const FormFactors
   const MatrixXd projected = svd.U.transpose() * products.apply(svd.U);
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(0.5 * (projected + projected.transpose()));
   return make_stored_as<LowRankKernelOperator>(choice.storage, form_factors, MatrixXd(svd.U * pairs.vectors),
-                                              pairs.values, std::optional<double>(), described);
+                                               pairs.values, std::optional<double>(), described);
 }
 
 }  // namespace radiosity

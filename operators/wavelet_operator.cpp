@@ -4,36 +4,33 @@
 #include "factorizations/halving_order.hpp"
 #include "operators/low_rank_choice.hpp"
 #include "operators/patch_planes.hpp"
-#include "operators/patch_coordinates.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <cstdlib>
-#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace radiosity {
 namespace {
-std::vector<std::vector<Index>> sequences(const PatchMesh& mesh) {
-  const char* e = std::getenv("RAD_ORDER");
-  const int mode = e ? std::atoi(e) : 1;
-  std::vector<std::vector<Index>> sets;
-  if (mode == 0) {
-    sets.emplace_back(mesh.patch_count());
-    std::iota(sets[0].begin(), sets[0].end(), 0);
-  } else if (mode == 2) {
-    sets.push_back(halving_order(patch_coordinates(mesh)));
-  } else
-    for (const PlacedSet& set : patch_planes(mesh)) {
-      Eigen::MatrixXd c = set.places;
-      if (std::isfinite(set.aspect)) c.row(0) *= set.aspect;
-      std::vector<Index> o = halving_order(c);
-      for (Index& i : o) i = set.items[i];
-      sets.push_back(o);
-    }
-  return sets;
+
+/// The patches of each plane, so that halves, and halves of halves, are compact.
+std::vector<std::vector<Index>> halved_planes(const PatchMesh& mesh) {
+  std::vector<std::vector<Index>> sequences;
+  for (const PlacedSet& plane : patch_planes(mesh)) {
+    Eigen::MatrixXd coordinates = plane.places;
+    if (std::isfinite(plane.aspect)) coordinates.row(0) *= plane.aspect;
+    const std::vector<Index> order = halving_order(coordinates);
+    std::vector<Index>& sequence = sequences.emplace_back(order.size());
+    std::transform(order.begin(), order.end(), sequence.begin(),
+                   [&](Index place) { return plane.items[static_cast<std::size_t>(place)]; });
+  }
+  return sequences;
 }
+
 }  // namespace
 
 std::unique_ptr<LinearOperator> make_wavelet_operator(Spec& spec, const FormFactors& form_factors) {
@@ -42,14 +39,11 @@ std::unique_ptr<LinearOperator> make_wavelet_operator(Spec& spec, const FormFact
   spec.finish();
   choice.require_kernel(form_factors);
   const PatchMesh& mesh = *form_factors.mesh;
-  const Eigen::VectorXd root_weight =
-      choice.in_area_norm() ? Eigen::VectorXd(mesh.area.cwiseSqrt()) : Eigen::VectorXd::Ones(mesh.patch_count());
-  return make_low_rank_operator(
-      choice, form_factors,
-      project_on_functions(form_factor_products(form_factors, choice.norm),
-                           haar_wavelets(sequences(mesh), root_weight), choice.rank,
-                           static_cast<std::uint64_t>(seed)),
-      fmt::format("wavelet:{},seed={}", choice.text(), seed));
+  LowRankPair pair = project_on_functions(form_factor_products(form_factors, choice.norm),
+                                          haar_wavelets(halved_planes(mesh), choice.root_weight(mesh)),
+                                          choice.rank, static_cast<std::uint64_t>(seed));
+  return make_low_rank_operator(choice, form_factors, std::move(pair),
+                                fmt::format("wavelet:{},seed={}", choice.text(), seed));
 }
 
 }  // namespace radiosity
