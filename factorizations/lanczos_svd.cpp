@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 namespace radiosity {
 namespace {
@@ -34,26 +33,30 @@ double estimate_norm(const BlockProduct& S, Index n, std::uint64_t seed) {
   return norm;
 }
 
-/// (I - Z Z') S (I - Z Z') times a factor, as Spectra wants it. Spectra calls a value converged where its
-/// residual is below `tolerance` times the larger of the value and eps^(2/3); with the factor eps^(2/3) /
-/// ||S|| that is a criterion relative to ||S||, the same for small values and large.
+/// Which end of the spectrum.
+enum class Wanted { largest, largest_magnitude };
+
+/// (I - Z Z') S (I - Z Z') / ||S|| as Spectra wants it. Spectra takes vectors shorter than 1e-16 sqrt(n) for
+/// nothing, so that a matrix of norm 1 is what suits it; and it calls a value converged where its residual is
+/// below a tolerance times the value, so that 1 is added where only the upper end is wanted: then small
+/// values need no more than large ones, and cannot be asked for what rounding forbids.
 class DeflatedOperator {
  public:
   using Scalar = double;
 
-  DeflatedOperator(const BlockProduct& S, const MatrixXd& Z, double norm)
-      : S_(S), Z_(Z), factor_(std::pow(std::numeric_limits<double>::epsilon(), 2.0 / 3) / norm) {}
+  DeflatedOperator(const BlockProduct& S, const MatrixXd& Z, double norm, Wanted wanted)
+      : S_(S), Z_(Z), factor_(1 / norm), shift_(wanted == Wanted::largest ? 1 : 0) {}
 
   Index rows() const { return Z_.rows(); }
   Index cols() const { return Z_.rows(); }
-  double factor() const { return factor_; }
 
   void perform_op(const double* x, double* y) const {
-    MatrixXd X = Eigen::Map<const VectorXd>(x, rows());
+    const Eigen::Map<const VectorXd> input(x, rows());
+    MatrixXd X = input;
     project_out_found(X);
     MatrixXd Y = factor_ * S_(X);
     project_out_found(Y);
-    Eigen::Map<VectorXd>(y, rows()) = Y.col(0);
+    Eigen::Map<VectorXd>(y, rows()) = Y.col(0) + shift_ * input;
   }
 
  private:
@@ -64,10 +67,8 @@ class DeflatedOperator {
   const BlockProduct& S_;
   const MatrixXd& Z_;
   double factor_;
+  double shift_;
 };
-
-/// Which end of the spectrum.
-enum class Wanted { largest, largest_magnitude };
 
 SymmetricEigenpairs largest(const SymmetricEigenpairs& rising, Index count) {
   count = std::min(count, static_cast<Index>(rising.values.size()));
@@ -104,7 +105,7 @@ class RestartedSearch {
     count = std::min(count, space - 1);
     if (count < 1) return;
     const Index basis = options_.basis > 0 ? options_.basis : 2 * count + 20;
-    DeflatedOperator deflated(S_, pairs_.vectors, norm_);
+    DeflatedOperator deflated(S_, pairs_.vectors, norm_, wanted_);
     Spectra::SymEigsSolver<DeflatedOperator> solver(deflated, count, std::clamp(basis, count + 1, space));
     MatrixXd start = normal_numbers(n_, 1, options_.seed + static_cast<std::uint64_t>(round));
     if (pairs_.vectors.cols() > 0) start -= pairs_.vectors * (pairs_.vectors.transpose() * start);
