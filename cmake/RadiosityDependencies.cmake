@@ -1,6 +1,7 @@
 # The libraries, all from Debian. Shared with the installed package's configuration, so that both find the same.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
+find_package(Spectra 1.0 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(fmt REQUIRED)
 find_package(embree 3 REQUIRED)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace radiosity {
 
@@ -43,6 +44,15 @@ SymmetricEigenpairs symmetric_eigenpairs(MatrixXd matrix) {
                                              matrix.data(), as_lapack(matrix.rows()), result.values.data()));
   result.vectors = std::move(matrix);
   return result;
+}
+
+SymmetricEigenpairs largest_in_magnitude(const SymmetricEigenpairs& pairs, Index count) {
+  std::vector<Index> order(static_cast<std::size_t>(pairs.values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return std::abs(pairs.values[a]) > std::abs(pairs.values[b]); });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
+  return {pairs.values(order), pairs.vectors(Eigen::all, order)};
 }
 
 SingularValues singular_value_decomposition(MatrixXd matrix) {

@@ -9,12 +9,15 @@ namespace radiosity {
 // Dense factorizations of LAPACK for matrices of doubles. Each throws Error if LAPACK does not converge.
 
 struct SymmetricEigenpairs {
-  Eigen::VectorXd values;   ///< rising
+  Eigen::VectorXd values;   ///< rising unless said otherwise
   Eigen::MatrixXd vectors;  ///< orthonormal columns in the same order
 };
 
 /// All eigenpairs of a symmetric matrix, of which the lower triangle is read (dsyevd).
 SymmetricEigenpairs symmetric_eigenpairs(Eigen::MatrixXd matrix);
+
+/// The first `count` pairs (or as many as there are) where the largest in magnitude come first.
+SymmetricEigenpairs largest_in_magnitude(const SymmetricEigenpairs& pairs, Eigen::Index count);
 
 struct SingularValues {
   Eigen::MatrixXd U;       ///< m x min(m, n)

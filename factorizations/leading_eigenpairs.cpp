@@ -240,6 +240,7 @@ EigenvalueInterval eigenvalue_interval(const BlockProduct& S, Eigen::Index n, do
       share / (1 - 2 * share) * (largest - least) + 1e-13 * std::max(std::abs(least), largest);
   interval.low = least - margin;
   interval.high = largest + margin;
+  interval.smallest_ritz = least;
   interval.largest_ritz = largest;
   interval.products = krylov.products();
   return interval;

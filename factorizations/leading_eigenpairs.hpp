@@ -44,7 +44,8 @@ LeadingEigenpairs leading_eigenpairs(const BlockProduct& S, Eigen::Index n, cons
 struct EigenvalueInterval {
   double low = 0;           ///< with probability >= confidence every eigenvalue lies between low
   double high = 0;          ///< and high
-  double largest_ritz = 0;  ///< and some lie here or above
+  double smallest_ritz = 0;  ///< some lie here or below
+  double largest_ritz = 0;   ///< and some here or above
   double confidence = 0;
   int products = 0;  ///< columns multiplied
 };

@@ -1,11 +1,8 @@
 #include "factorizations/randomized_svd.hpp"
 
 #include "foundation/error.hpp"
-#include "foundation/random.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace radiosity {
 namespace {
@@ -13,30 +10,12 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Independent normal numbers (Box and Muller).
-MatrixXd gaussian_matrix(Index rows, Index columns, std::uint64_t seed) {
-  MatrixXd matrix(rows, columns);
-  for (Index j = 0; j < columns; ++j) {
-    RandomStream random(seed, static_cast<std::uint64_t>(j));
-    for (Index i = 0; i < rows; ++i) {
-      const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
-      matrix(i, j) = radius * std::cos(2 * std::numbers::pi * random.uniform());
-    }
-  }
-  return matrix;
-}
-
 /// An orthonormal basis as wide as X or as high; where X lacks rank it is filled up, which does no harm.
 MatrixXd basis_of(const MatrixXd& X) {
   return pivoted_qr(X).Q;
 }
 
 }  // namespace
-
-MatrixProducts MatrixProducts::of(const MatrixXd& matrix) {
-  return {matrix.rows(), matrix.cols(), [&matrix](const MatrixXd& X) { return MatrixXd(matrix * X); },
-          [&matrix](const MatrixXd& X) { return MatrixXd(matrix.transpose() * X); }};
-}
 
 SingularValues randomized_svd(const MatrixProducts& products, const RandomizedSvdOptions& options) {
   if (options.rank < 0 || options.oversampling < 0 || options.power_steps < 0)
@@ -47,7 +26,7 @@ SingularValues randomized_svd(const MatrixProducts& products, const RandomizedSv
   const Index rank = std::min(options.rank, smaller);
   const Index width = std::min(rank + options.oversampling, smaller);
   if (rank == 0) return {MatrixXd(products.rows, 0), Eigen::VectorXd(0), MatrixXd(products.columns, 0)};
-  MatrixXd Q = basis_of(products.apply(gaussian_matrix(products.columns, width, options.seed)));
+  MatrixXd Q = basis_of(products.apply(normal_numbers(products.columns, width, options.seed)));
   for (int step = 0; step < options.power_steps; ++step)
     Q = basis_of(products.apply(basis_of(products.apply_transposed(Q))));
   // A ~ Q (Q' A) = Q (W S Z')'  with  A' Q = W S Z'.

@@ -1,24 +1,13 @@
 #pragma once
 
 #include "factorizations/lapack.hpp"
+#include "factorizations/matrix_products.hpp"
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <functional>
 
 namespace radiosity {
-
-/// An m x n matrix A that is known by its products only.
-struct MatrixProducts {
-  Eigen::Index rows = 0;
-  Eigen::Index columns = 0;
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> apply;             ///< A X, X of n x c
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> apply_transposed;  ///< A' X, X of m x c
-
-  /// Products with a stored matrix, which must outlive them.
-  static MatrixProducts of(const Eigen::MatrixXd& matrix);
-};
 
 struct RandomizedSvdOptions {
   Eigen::Index rank = 0;           ///< singular values wanted, at most min(m, n) are there

@@ -1,10 +1,14 @@
 #include "operators/csr_operator.hpp"
+#include "operators/cur_operator.hpp"
+#include "operators/dct_operator.hpp"
 #include "operators/dense_operator.hpp"
 #include "operators/operator_registry.hpp"
+#include "operators/qr_operator.hpp"
 #include "operators/quantized_operator.hpp"
 #include "operators/svd_operator.hpp"
 #include "operators/topk_operator.hpp"
 #include "operators/two_mesh_operator.hpp"
+#include "operators/wavelet_operator.hpp"
 
 namespace radiosity {
 
@@ -35,10 +39,10 @@ OperatorRegistry cpu_operators() {
        .lossy = true},
       {.name = "svd",
        .summary = "the best approximation of rank k, in the plain or the area norm; from all entries",
-       .defaults = "svd:k=64,norm=plain,storage=f32",
+       .defaults = "svd:k=64,norm=plain,storage=f32,method=dense",
        .make = make_svd_operator,
        .lossy = true,
-       .variants = {"svd:k=32,norm=area"}},
+       .variants = {"svd:k=32,norm=area", "svd:k=8,method=lanczos"}},
       {.name = "rsvd",
        .summary = "a randomized SVD of rank k, in the plain or the area norm; from products",
        .defaults = "rsvd:k=64,norm=plain,storage=f32,power=1,oversampling=10,seed=1",
@@ -56,6 +60,30 @@ OperatorRegistry cpu_operators() {
        .defaults = "sparse-v:k=64,mesh=adaptive,assign=inclusion,storage=f32",
        .make = make_sparse_v_operator,
        .lossy = true},
+      {.name = "qr",
+       .summary = "an orthonormal basis of k columns of F, and F projected on it",
+       .defaults = "qr:k=64,norm=plain,storage=f32,columns=2msc,mesh=adaptive,assign=inclusion",
+       .make = make_qr_operator,
+       .lossy = true,
+       .variants = {"qr:k=32,norm=area", "qr:k=32,columns=pivoted"}},
+      {.name = "cur",
+       .summary = "k columns and k rows of F and a small matrix between them",
+       .defaults = "cur:k=64,norm=plain,storage=f32,core=projection,seed=1",
+       .make = make_cur_operator,
+       .lossy = true,
+       .variants = {"cur:k=32,norm=area", "cur:k=32,core=interpolation"}},
+      {.name = "wavelet",
+       .summary = "F projected on the k Haar wavelets that carry most of it",
+       .defaults = "wavelet:k=64,norm=plain,storage=f32,seed=1",
+       .make = make_wavelet_operator,
+       .lossy = true,
+       .variants = {"wavelet:k=32,norm=area"}},
+      {.name = "dct",
+       .summary = "F projected on the k functions of the cosine transform that carry most of it",
+       .defaults = "dct:k=64,norm=plain,storage=f32,seed=1",
+       .make = make_dct_operator,
+       .lossy = true,
+       .variants = {"dct:k=32,norm=area"}},
   });
 }
 

@@ -63,7 +63,7 @@ PartitionChoice PartitionChoice::take(Spec& spec) {
   choice.adaptive = mesh == "adaptive";
   const std::string assign = spec.choice("assign", "inclusion", {"inclusion", "proximity"});
   choice.assignment = assign == "inclusion" ? Assignment::inclusion : Assignment::proximity;
-  choice.text = fmt::format("k={},mesh={},assign={}", choice.patches, mesh, assign);
+  choice.text = fmt::format("mesh={},assign={}", mesh, assign);
   if (choice.adaptive) {
     choice.threshold = spec.number("threshold", 0, 0, 1);
     choice.least_area = spec.number("least-area", 0, 0, 1e300);

@@ -57,7 +57,7 @@ struct PartitionChoice {
   Assignment assignment = Assignment::inclusion;
   double threshold = 0;
   double least_area = 0;
-  std::string text;  ///< the keys
+  std::string text;  ///< the keys but k
 
   static PartitionChoice take(Spec& spec);
 };

@@ -5,6 +5,7 @@
 #include "operators/storage_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace radiosity {
@@ -37,17 +38,18 @@ void LowRankOperator<Scalar>::multiply_matrix_transposed(const ConstFieldRef& X,
 namespace {
 
 /// The norm of what is left out is an eigenvalue, which is tight; entries may have any sign, so that row sums
-/// bound no spectral radius, but the largest |value| does, times the largest reflectance.
+/// bound no spectral radius, but the largest |value| does, times the largest reflectance and the square of
+/// `stored_norm`, ||Q||_2 as it is stored.
 Certificate low_rank_certificate(const FormFactors& form_factors, const Eigen::VectorXd& values, double error,
-                                 double rounding) {
+                                 double rounding, double stored_norm) {
   if (form_factors.patch_count() == 0) return {};
   const double norm = values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff();
   const Eigen::VectorXd root_area = form_factors.mesh->area.cwiseSqrt();
   Certificate certificate = approximation_certificate(
       {error, form_factors.row_sums(), Eigen::VectorXd::Constant(root_area.size(), norm)}, rounding,
       form_factors.mesh->reflectance, root_area);
-  certificate.spectral_radius_bound =
-      form_factors.mesh->reflectance.maxCoeff() * norm * (1 + 1e-12 * static_cast<double>(root_area.size()));
+  certificate.spectral_radius_bound = form_factors.mesh->reflectance.maxCoeff() * norm * stored_norm *
+                                      stored_norm * (1 + 1e-12 * static_cast<double>(root_area.size()));
   return certificate;
 }
 
@@ -62,7 +64,10 @@ LowRankKernelOperator<Scalar>::LowRankKernelOperator(const FormFactors& form_fac
   // as k.
   const double rounding =
       2 * product_rounding<Scalar>(size()) * static_cast<double>(std::max<Index>(rank(), 1));
-  if (error) certificate_ = low_rank_certificate(form_factors, values, *error, rounding);
+  // Rounding each number of k columns of length 1 changes the norm by at most u sqrt(k).
+  const double stored_norm =
+      1 + (sizeof(Scalar) == 8 ? 0x1p-53 : 0x1p-24) * std::sqrt(static_cast<double>(rank()));
+  if (error) certificate_ = low_rank_certificate(form_factors, values, *error, rounding, stored_norm);
 }
 
 template <typename Scalar>

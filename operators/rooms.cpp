@@ -4,6 +4,7 @@
 #include "factorizations/spectral_clusters.hpp"
 #include "foundation/error.hpp"
 #include "kernels/products.hpp"
+#include "operators/patch_coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,18 +47,6 @@ void require_kernel_for_rooms(const FormFactors& form_factors) {
 void count_rooms(Rooms& rooms) {
   rooms.count = 0;
   for (const int room : rooms.of_patch) rooms.count = std::max(rooms.count, room + 1);
-}
-
-/// Where the patches are and face: 6 x n, places and directions alike in size; patch numbers if that is not
-/// known.
-Eigen::MatrixXd patch_coordinates(const PatchMesh& mesh, Index n) {
-  if (mesh.centroid.cols() != n || mesh.normal.cols() != n)
-    return Eigen::RowVectorXd::LinSpaced(n, 0, static_cast<double>(n));
-  Eigen::MatrixXd coordinates(6, n);
-  coordinates.topRows(3) = mesh.centroid;
-  const Eigen::VectorXd extent = mesh.centroid.rowwise().maxCoeff() - mesh.centroid.rowwise().minCoeff();
-  coordinates.bottomRows(3) = 0.5 * extent.maxCoeff() * mesh.normal;
-  return coordinates;
 }
 
 struct PatchSet {
@@ -130,7 +119,7 @@ Rooms rooms_of_groups(const FormFactors& form_factors) {
 Rooms divide_rooms(const FormFactors& form_factors, const Rooms& rooms, int count) {
   const Index n = form_factors.patch_count();
   const Eigen::VectorXd& area = form_factors.mesh->area;
-  const Eigen::MatrixXd coordinates = patch_coordinates(*form_factors.mesh, n);
+  const Eigen::MatrixXd coordinates = patch_coordinates(*form_factors.mesh);
   std::vector<std::vector<Index>> members(static_cast<std::size_t>(rooms.count));
   for (Index i = 0; i < n; ++i) {
     const int room = rooms.of_patch[static_cast<std::size_t>(i)];

@@ -8,10 +8,11 @@
 
 namespace radiosity {
 
-/// `svd:k=64,norm=plain|area,storage=f32|f64`: the best approximation of F of rank k (document 004). In the
-/// plain norm F = U S V' by LAPACK's dgesdd, kept as U S and V; in the area norm the eigenpairs of the
-/// symmetric kernel K that are largest in magnitude, kept as one factor, with the first one left out as
-/// certificate. Either costs O(n^3). k counts at most n.
+/// `svd:k=64,norm=plain|area,storage=f32|f64,method=dense|lanczos`: the best approximation of F of rank k
+/// (document 004). In the plain norm F = U S V' by LAPACK's dgesdd, kept as U S and V; in the area norm the
+/// eigenpairs of the symmetric kernel K that are largest in magnitude, kept as one factor, with the first one
+/// left out as certificate. Either costs O(n^3). method=lanczos finds the same from products, without a
+/// certificate, or throws Error where it does not converge. k counts at most n.
 std::unique_ptr<LinearOperator> make_svd_operator(Spec& spec, const FormFactors& form_factors);
 
 /// `rsvd:k=64,norm=...,power=1,oversampling=10,seed=1,storage=...`: the same from a randomized SVD, which

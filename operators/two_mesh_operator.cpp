@@ -75,7 +75,8 @@ std::unique_ptr<LinearOperator> make_two_mesh_operator(Spec& spec, const FormFac
         "sides=two needs a symmetric kernel, which form factors by '{}' do not have: use sides=one",
         form_factors.quality.method);
   const ChosenPartition chosen = choose_partition(form_factors, choice);
-  const std::string described = fmt::format("2msc:{},sides={},storage={}", choice.text, sides, storage);
+  const std::string described =
+      fmt::format("2msc:k={},{},sides={},storage={}", choice.patches, choice.text, sides, storage);
   if (sides == "two")
     return storage == "f64" ? make_two_sided<double>(form_factors, chosen, described)
                             : make_two_sided<float>(form_factors, chosen, described);
@@ -88,7 +89,8 @@ std::unique_ptr<LinearOperator> make_sparse_v_operator(Spec& spec, const FormFac
   const std::string storage = spec.choice("storage", "f32", {"f32", "f64"});
   spec.finish();
   const ChosenPartition chosen = choose_partition(form_factors, choice);
-  const std::string described = fmt::format("sparse-v:{},storage={}", choice.text, storage);
+  const std::string described =
+      fmt::format("sparse-v:k={},{},storage={}", choice.patches, choice.text, storage);
   return storage == "f64" ? make_sparse_v<double>(form_factors, chosen, described)
                           : make_sparse_v<float>(form_factors, chosen, described);
 }

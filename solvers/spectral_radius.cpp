@@ -3,6 +3,7 @@
 #include "factorizations/leading_eigenpairs.hpp"
 #include "foundation/error.hpp"
 #include "operators/kernel_operator.hpp"
+#include "operators/low_rank_operator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,8 @@ SpectralRadius collatz_wielandt_bounds(const LinearOperator& transport, int max_
     radius.upper = 0;
     return radius;
   }
+  // Low-rank factors are signed even where no product with a positive field shows it.
+  const bool is_signed = dynamic_cast<const LowRankFactors*>(&transport) != nullptr;
   const double allowance = 1 + static_cast<double>(n + 2) * std::numeric_limits<double>::epsilon();
   Field fields = Field::Ones(n, transport.channels());
   Field images(n, fields.cols());
@@ -73,7 +76,7 @@ SpectralRadius collatz_wielandt_bounds(const LinearOperator& transport, int max_
     ++radius.products;
     const Ratios ratios = entry_ratios(images, fields);
     radius.estimate = (images.colwise().norm().array() / fields.colwise().norm().array()).maxCoeff();
-    if (ratios.negative || !std::isfinite(ratios.high)) {
+    if (is_signed || ratios.negative || !std::isfinite(ratios.high)) {
       radius.lower = 0;
       radius.upper = certificate.spectral_radius_bound;
       return radius;

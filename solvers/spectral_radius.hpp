@@ -22,7 +22,8 @@ struct SpectralRadius {
 /// (hard-cases.md, R2): for every x > 0, min_i (T x)_i / x_i <= radius <= max_i (T x)_i / x_i. x = 1 first,
 /// then a few lazy power steps x <- T x + x max/10, which keep x positive on black patches and cannot
 /// oscillate. The upper bound is enlarged by 2 (n + 2) u, the rounding of a product in double precision. An
-/// operator whose product with x > 0 has a negative entry is signed: no upper bound but its certificate's.
+/// operator whose product with x > 0 has a negative entry, or of low rank, is signed: no upper bound but its
+/// certificate's.
 SpectralRadius collatz_wielandt_bounds(const LinearOperator& transport, int max_products = 20);
 
 /// The same, and for a symmetric kernel that is signed, or whose bound would not be below 1, the bound that

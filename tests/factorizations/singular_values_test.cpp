@@ -3,6 +3,7 @@
 #include "factorizations/randomized_svd.hpp"
 #include "foundation/error.hpp"
 #include "hard_matrices.hpp"
+#include "test_ratios.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,24 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double roundoff = 0x1p-53;
-
-/// ||I - Q'Q|| / (n u).
-double orthogonality(const MatrixXd& Q) {
-  if (Q.size() == 0) return 0;
-  return (MatrixXd::Identity(Q.cols(), Q.cols()) - Q.transpose() * Q).cwiseAbs().maxCoeff() /
-         (static_cast<double>(Q.rows()) * roundoff);
-}
-
-/// ||A - U S V'|| / (||A|| n u), safe for numbers near either end of the range.
-double residual(const MatrixXd& A, const SingularValues& svd) {
-  const double largest = A.cwiseAbs().maxCoeff();
-  if (largest == 0) return svd.values.size() == 0 ? 0 : svd.values.maxCoeff() / roundoff;
-  const MatrixXd difference = A / largest - svd.U * (svd.values / largest).asDiagonal() * svd.V.transpose();
-  return difference.norm() /
-         ((A / largest).norm() * static_cast<double>(std::max(A.rows(), A.cols())) * roundoff);
-}
-
 TEST(SingularValues, MeetLapacksTestRatios) {
   for (const HardMatrix& hard : hard_matrices(5)) {
     const SingularValues svd = singular_value_decomposition(hard.matrix);
@@ -41,7 +24,7 @@ TEST(SingularValues, MeetLapacksTestRatios) {
     EXPECT_LE(orthogonality(svd.V), 50) << hard.name;
     for (Index k = 1; k < svd.values.size(); ++k) EXPECT_GE(svd.values[k - 1], svd.values[k]) << hard.name;
     if (hard.values.size() == 0) continue;
-    const double allowed = 100 * roundoff * hard.values[0];
+    const double allowed = 100 * double_roundoff * hard.values[0];
     EXPECT_LE((svd.values.head(hard.values.size()) - hard.values).cwiseAbs().maxCoeff(), allowed)
         << hard.name;
   }
@@ -61,7 +44,7 @@ TEST(PivotedQr, MeetsLapacksTestRatiosAndRevealsRank) {
     const double scale = std::max(hard.matrix.cwiseAbs().maxCoeff(), 1e-300);
     // A P = Q (Q' A P) holds where Q spans the range.
     const MatrixXd A = hard.matrix / scale;
-    EXPECT_LE((A - qr.Q * (qr.Q.transpose() * A)).norm(), 50 * 70 * roundoff * A.norm()) << hard.name;
+    EXPECT_LE((A - qr.Q * (qr.Q.transpose() * A)).norm(), 50 * 70 * double_roundoff * A.norm()) << hard.name;
     for (Index k = 1; k < qr.diagonal.size(); ++k)
       EXPECT_GE(qr.diagonal[k - 1] * (1 + 1e-12), qr.diagonal[k]) << hard.name;
     if (hard.name == "rank deficient") {
