@@ -13,7 +13,11 @@ struct EnergyBalance {
   double lost = 0;      ///< sum A (B - H): what leaves the scene or ends on the back of a patch
 };
 
-/// E and B are n x channels, W/m^2.
-EnergyBalance energy_balance(const FormFactors& form_factors, const Field& emission, const Field& radiosity);
+/// H = F B, n x channels, W/m^2: with the operator's own F where `form_factors` have none.
+Field irradiance(const FormFactors& form_factors, const LinearOperator& transport, const Field& radiosity);
+
+/// E, B and H are n x channels, W/m^2.
+EnergyBalance energy_balance(const PatchMesh& mesh, const Field& emission, const Field& radiosity,
+                             const Field& irradiance);
 
 }  // namespace radiosity

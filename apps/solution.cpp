@@ -1,5 +1,6 @@
 #include "apps/solution.hpp"
 
+#include "apps/energy_balance.hpp"
 #include "foundation/stopwatch.hpp"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ Solution solve_scene(const FormFactors& form_factors, const Field& emission, con
   result.products = solver->products();
   result.residual = solver->residual();
   result.radiosity = solver->radiosity();
+  result.irradiance = irradiance(form_factors, *transport, result.radiosity);
   return result;
 }
 

@@ -17,7 +17,8 @@ struct SolutionRequest {
 
 /// B of a scene and what it took.
 struct Solution {
-  Field radiosity;  ///< n x channels, W/m^2
+  Field radiosity;   ///< n x channels, W/m^2
+  Field irradiance;  ///< the same, F B
   std::string operator_name;
   std::string solver_name;
   std::size_t bytes = 0;  ///< of the operator

@@ -78,8 +78,11 @@ void print_solution(const FormFactors& form_factors, const SolutionReport& repor
   const Solution& solution = report.solution;
   fmt::print("scene      {}, {} patches, {} channel{}\n", mesh.scene->name, mesh.patch_count(),
              mesh.channels(), mesh.channels() == 1 ? "" : "s");
-  fmt::print("factors    {}, closure {}, rows sum to {:.6g} ... {:.6g}, {:.3g} s\n", quality.method,
-             quality.closure, quality.row_sum_min, quality.row_sum_max, quality.seconds);
+  if (quality.method.empty())
+    fmt::print("factors    not assembled: the operator was made from the meshes\n");
+  else
+    fmt::print("factors    {}, closure {}, rows sum to {:.6g} ... {:.6g}, {:.3g} s\n", quality.method,
+               quality.closure, quality.row_sum_min, quality.row_sum_max, quality.seconds);
   fmt::print("operator   {}, {}, built in {:.3g} s\n", solution.operator_name,
              byte_text(static_cast<double>(solution.bytes)), solution.build_seconds);
   fmt::print("solver     {}, {} products, residual {:.2g}, {:.3g} s\n", solution.solver_name,

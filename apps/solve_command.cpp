@@ -63,6 +63,20 @@ Field light_of(const SolveOptions& options, const PatchMesh& mesh, Monitor& moni
   return draw_lights(mesh, counts, options.run.seed, monitor).emission;
 }
 
+/// For an operator that is made from the mesh alone.
+FormFactors without_factors(const SolveOptions& options, std::shared_ptr<const PatchMesh> mesh) {
+  for (const auto* file : {&options.form_factors.save_file, &options.form_factors.kernel_file})
+    if (!file->empty())
+      fail<UsageError>("{}: {} assembles no form factors; leave the file out or take factors=sums",
+                       file->string(), options.request.operator_spec);
+  if (!options.error_bounds_file.empty())
+    fail<UsageError>("--error-bounds needs products with F, which {} does not assemble: take factors=sums",
+                     options.request.operator_spec);
+  FormFactors form_factors;
+  form_factors.mesh = std::move(mesh);
+  return form_factors;
+}
+
 void run_solve(SolveOptions options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
   require_device(options.run);
@@ -72,12 +86,15 @@ void run_solve(SolveOptions options, const Program& program) {
 
   TerminalMonitor monitor(options.run.quiet);
   const auto mesh = open_mesh(options.scene);
-  const FormFactors form_factors = obtain_form_factors(mesh, options.form_factors, monitor);
+  const bool assembled = program.operators.needs_form_factors(options.request.operator_spec);
+  const FormFactors form_factors =
+      assembled ? obtain_form_factors(mesh, options.form_factors, monitor) : without_factors(options, mesh);
   const Field emission = light_of(options, *mesh, monitor);
 
+  std::vector<std::string> notes = mesh->notes;
   SolutionReport report;
   report.solution = solve_scene(form_factors, emission, options.request, program, monitor);
-  report.energy = energy_balance(form_factors, emission, report.solution.radiosity);
+  report.energy = energy_balance(*mesh, emission, report.solution.radiosity, report.solution.irradiance);
   if (!options.no_certificate) {
     monitor.checkpoint("certificate", 0);
     if (options.certificate_rows > 0) {
@@ -85,6 +102,8 @@ void run_solve(SolveOptions options, const Program& program) {
       report.certificate =
           certify_from_rows(mesh, options.certificate_rows, options.form_factors.options.tolerance / 10,
                             options.run.seed + 1, emission, report.solution.radiosity);
+    } else if (!assembled) {
+      notes.emplace_back("no F was assembled to certify B with: --certificate-rows N samples it");
     } else if (const auto certifier = Certifier::make(form_factors, options.run.seed)) {
       report.certificate = certifier->certify(emission, report.solution.radiosity);
     }
@@ -100,7 +119,6 @@ void run_solve(SolveOptions options, const Program& program) {
         compare_with_reference(lit, report.solution.radiosity, trace_paths(lit, options.paths, monitor));
   }
 
-  std::vector<std::string> notes = mesh->notes;
   if (!form_factors.quality.closure_note.empty()) notes.push_back(form_factors.quality.closure_note);
   for (const std::filesystem::path& output : options.outputs)
     notes.push_back(write_solution(output, *mesh, report.solution.radiosity, options.picture, monitor));

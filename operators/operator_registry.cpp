@@ -11,9 +11,10 @@ namespace radiosity {
 namespace {
 
 /// Throws UsageError unless there is either a symmetric kernel or a full matrix, of the mesh's size.
-void check_form_factors(const FormFactors& form_factors) {
+void check_form_factors(const FormFactors& form_factors, bool needed) {
   if (!form_factors.mesh)
     fail<UsageError>("the form factors have no mesh: an operator needs its areas and reflectances");
+  if (!needed && !form_factors.kernel && !form_factors.unsymmetric) return;
   if ((form_factors.kernel == nullptr) == (form_factors.unsymmetric == nullptr))
     fail<UsageError>("form factors have either a symmetric kernel or a full matrix; these have {}",
                      form_factors.kernel ? "both" : "neither");
@@ -35,21 +36,31 @@ void OperatorRegistry::add(OperatorEntry entry) {
   entries_.push_back(std::move(entry));
 }
 
+const OperatorEntry& OperatorRegistry::entry(const Spec& spec) const {
+  std::vector<std::string> names;
+  names.reserve(entries_.size());
+  for (const OperatorEntry& entry : entries_) {
+    if (entry.name == spec.name()) return entry;
+    names.push_back(entry.name);
+  }
+  fail<UsageError>("there is no operator '{}' (in '{}'); known are {}", spec.name(), spec.text(),
+                   fmt::join(names, ", "));
+}
+
+bool OperatorRegistry::needs_form_factors(const std::string& spec_text) const {
+  Spec spec = Spec::parse(spec_text);
+  return !entry(spec).direct || spec.text("factors", "") != "direct";
+}
+
 std::unique_ptr<LinearOperator> OperatorRegistry::make(const std::string& spec_text,
                                                        const FormFactors& form_factors) const {
   Spec spec = Spec::parse(spec_text);
-  std::vector<std::string> names;
-  for (const OperatorEntry& entry : entries_) {
-    names.push_back(entry.name);
-    if (entry.name != spec.name()) continue;
-    check_form_factors(form_factors);
-    const ClosureChoice closure = ClosureChoice::take(spec, entry.closure);
-    auto made = entry.make(spec, form_factors);
-    spec.finish();
-    return close_operator(std::move(made), closure, form_factors);
-  }
-  fail<UsageError>("there is no operator '{}' (in '{}'); known are {}", spec.name(), spec_text,
-                   fmt::join(names, ", "));
+  const OperatorEntry& found = entry(spec);
+  check_form_factors(form_factors, needs_form_factors(spec_text));
+  const ClosureChoice closure = ClosureChoice::take(spec, found.closure);
+  auto made = found.make(spec, form_factors);
+  spec.finish();
+  return close_operator(std::move(made), closure, form_factors);
 }
 
 }  // namespace radiosity

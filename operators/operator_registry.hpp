@@ -17,7 +17,8 @@ struct OperatorEntry {
   std::string defaults;  ///< keys with their defaults, as a spec: "dense:f64"
   std::function<std::unique_ptr<LinearOperator>(Spec&, const FormFactors&)> make;
   std::string closure = "none";  ///< unless the spec names another (operators/closed_operator.hpp)
-  bool lossy = false;  ///< is further from T than the rounding of its storage: measured by its certificate
+  bool lossy = false;   ///< is further from T than the rounding of its storage: measured by its certificate
+  bool direct = false;  ///< with factors=direct in its spec it needs the mesh of the form factors only, not F
   std::vector<std::string> variants = {};  ///< further specs that tests and benchmarks take along
 };
 
@@ -33,11 +34,17 @@ class OperatorRegistry {
 
   const std::vector<OperatorEntry>& entries() const { return entries_; }
 
+  /// Whether what a spec names is made from F; otherwise the mesh of the form factors is enough. Throws
+  /// UsageError for unknown names.
+  bool needs_form_factors(const std::string& spec) const;
+
   /// Parses and builds. Every spec may name a closure, as in "dense:f16,closure=symmetric". Throws UsageError
   /// for unknown names and keys, listing the known ones.
   std::unique_ptr<LinearOperator> make(const std::string& spec, const FormFactors& form_factors) const;
 
  private:
+  const OperatorEntry& entry(const Spec& spec) const;
+
   std::vector<OperatorEntry> entries_;
 };
 

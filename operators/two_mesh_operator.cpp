@@ -2,12 +2,15 @@
 
 #include "form_factors/patch_sums.hpp"
 #include "foundation/error.hpp"
+#include "operators/direct_two_mesh.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "operators/sparse_v_operator.hpp"
 #include "operators/two_sided_operator.hpp"
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace radiosity {
@@ -58,6 +61,26 @@ std::unique_ptr<LinearOperator> make_sparse_v(const FormFactors& form_factors, c
                                                    std::move(spec), chosen.remark);
 }
 
+/// U without F, from the mesh of `form_factors`.
+std::unique_ptr<LinearOperator> make_direct_sparse_v(Spec& spec, const FormFactors& form_factors,
+                                                     const PartitionChoice& choice,
+                                                     const std::string& storage,
+                                                     const std::string& described) {
+  ElementFactorOptions options;
+  options.tolerance = spec.number("tolerance", options.tolerance, 1e-9, 1);
+  options.seed =
+      static_cast<std::uint64_t>(spec.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+  spec.finish();
+  if (storage != "f32") fail<UsageError>("'{}': factors=direct keeps U as f32 only", spec.text());
+  if (!form_factors.mesh->scene)
+    fail<UsageError>("'{}': factors=direct needs the scene, of which nothing is known here", spec.text());
+  SilentMonitor monitor;
+  return make_direct_two_mesh(
+             form_factors.mesh, choice, options,
+             fmt::format("{},tolerance={},seed={}", described, options.tolerance, options.seed), monitor)
+      .transport;
+}
+
 }  // namespace
 
 MatrixXd two_mesh_left_factor(const FormFactors& form_factors, const ElementPartition& partition) {
@@ -87,10 +110,12 @@ std::unique_ptr<LinearOperator> make_two_mesh_operator(Spec& spec, const FormFac
 std::unique_ptr<LinearOperator> make_sparse_v_operator(Spec& spec, const FormFactors& form_factors) {
   const PartitionChoice choice = PartitionChoice::take(spec);
   const std::string storage = spec.choice("storage", "f32", {"f32", "f64"});
+  const std::string factors = spec.choice("factors", "sums", {"sums", "direct"});
+  const std::string described = fmt::format("sparse-v:k={},{},storage={},factors={}", choice.patches,
+                                            choice.text, storage, factors);
+  if (factors == "direct") return make_direct_sparse_v(spec, form_factors, choice, storage, described);
   spec.finish();
   const ChosenPartition chosen = choose_partition(form_factors, choice);
-  const std::string described =
-      fmt::format("sparse-v:k={},{},storage={}", choice.patches, choice.text, storage);
   return storage == "f64" ? make_sparse_v<double>(form_factors, chosen, described)
                           : make_sparse_v<float>(form_factors, chosen, described);
 }

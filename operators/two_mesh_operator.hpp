@@ -17,8 +17,9 @@ namespace radiosity {
 /// k counts at most n.
 std::unique_ptr<LinearOperator> make_two_mesh_operator(Spec& spec, const FormFactors& form_factors);
 
-/// `sparse-v:k=64,mesh=...,assign=...,storage=...`: the same with sides=one and V sparse
-/// (operators/sparse_v_operator.hpp).
+/// `sparse-v:k=64,mesh=...,assign=...,storage=...,factors=sums|direct`: the same with sides=one and V sparse
+/// (operators/sparse_v_operator.hpp). factors=direct,tolerance=1e-3,seed=1 computes U from form factors
+/// between elements and patches and needs no F (operators/direct_two_mesh.hpp).
 std::unique_ptr<LinearOperator> make_sparse_v_operator(Spec& spec, const FormFactors& form_factors);
 
 /// F_ep / A_p, or F_ep / c_p where elements are equal in area, n x k by element in the order of the mesh: U

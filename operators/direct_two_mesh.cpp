@@ -1,0 +1,62 @@
+#include "operators/direct_two_mesh.hpp"
+
+#include "foundation/error.hpp"
+#include "foundation/parallel.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace radiosity {
+namespace {
+
+/// The order in which U keeps its rows.
+std::vector<Index> row_order(const Segments& V) {
+  if (!V.order().empty()) return {V.order().begin(), V.order().end()};
+  std::vector<Index> order(static_cast<std::size_t>(V.rows()));
+  std::iota(order.begin(), order.end(), Index{0});
+  return order;
+}
+
+/// Rows first, first + 1, ... of U from those of F_ep. `first` is the beginning of a panel.
+void fill_rows(TallMatrix<float>& U, Index first, const Eigen::MatrixXd& factors,
+               const Eigen::VectorXd& inverse_divisors) {
+  constexpr Index panel_rows = TallMatrix<float>::panel_rows;
+  const Index panels = (factors.rows() + panel_rows - 1) / panel_rows;
+  parallel_for(static_cast<std::size_t>(panels), [&](std::size_t panel) {
+    const Index begin = static_cast<Index>(panel) * panel_rows;
+    const Index rows = std::min(panel_rows, factors.rows() - begin);
+    U.fill_panel(first / panel_rows + static_cast<Index>(panel),
+                 factors.middleRows(begin, rows) * inverse_divisors.asDiagonal());
+  });
+}
+
+}  // namespace
+
+DirectTwoMesh make_direct_two_mesh(std::shared_ptr<const PatchMesh> elements, const PartitionChoice& choice,
+                                   const ElementFactorOptions& options, const std::string& spec,
+                                   Monitor& monitor) {
+  std::optional<CoarseMesh> coarse = make_coarse_mesh(*elements, choice);
+  if (!coarse)
+    fail<UsageError>(
+        "'{}' has no coarse mesh of at most {} patches, for its faces are more: ask for a larger k",
+        elements->scene->name, choice.patches);
+  const ElementPartition partition(std::move(coarse->patch_of_element), elements->area);
+  Segments V = partition.right_factor();
+  const Eigen::VectorXd inverse_divisors = partition.divisors().cwiseInverse();
+  TallMatrix<float> U(elements->patch_count(), partition.patches());
+  DirectTwoMesh result;
+  result.rays = compute_element_factors(
+      *elements, row_order(V), coarse->patches, options,
+      [&](Index first, const Eigen::MatrixXd& factors) { fill_rows(U, first, factors, inverse_divisors); },
+      monitor);
+  FormFactors form_factors;
+  form_factors.mesh = std::move(elements);
+  result.transport =
+      std::make_unique<SparseVOperator<float>>(form_factors, std::move(V), std::move(U), spec, std::string());
+  return result;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "form_factors/element_factors.hpp"
+#include "foundation/monitor.hpp"
+#include "operators/element_partition.hpp"
+#include "operators/sparse_v_operator.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace radiosity {
+
+struct DirectTwoMesh {
+  std::unique_ptr<SparseVOperator<float>> transport;
+  std::uint64_t rays = 0;
+};
+
+/// The sparse-V operator of a coarse mesh with U from form factors between elements and patches, n k of them
+/// (document 004, section 3.2: F_ep), and no n x n matrix: memory stays at that of U and the meshes. F_ep
+/// here is exact for the polygon of a patch, which for meshes that do not fit each other differs a little
+/// from the sum over the patch's elements. `elements` supplies areas and reflectances too. Throws UsageError
+/// where the scene has no coarse mesh of at most k patches.
+DirectTwoMesh make_direct_two_mesh(std::shared_ptr<const PatchMesh> elements, const PartitionChoice& choice,
+                                   const ElementFactorOptions& options, const std::string& spec,
+                                   Monitor& monitor);
+
+}  // namespace radiosity
