@@ -205,7 +205,7 @@ SymmetricEigenpairs lanczos_eigenpairs(const MatrixProducts& A, const LanczosOpt
   if (options.rank == 0 || n == 0) return {VectorXd(0), MatrixXd(n, 0)};
   if (options.rank >= n)
     return largest_in_magnitude(symmetric_eigenpairs(A.apply(MatrixXd::Identity(n, n))), n);
-  const SymmetricEigenpairs pairs = RestartedSearch(A.apply, n, Wanted::largest_magnitude, options).run();
+  SymmetricEigenpairs pairs = RestartedSearch(A.apply, n, Wanted::largest_magnitude, options).run();
   require_small_residual(A.apply(pairs.vectors) - pairs.vectors * pairs.values.asDiagonal(),
                          pairs.values.cwiseAbs().maxCoeff());
   return pairs;

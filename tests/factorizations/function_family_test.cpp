@@ -45,9 +45,11 @@ PlacedSet grid(Index across, Index up) {
   PlacedSet set;
   set.items = numbers(across * up);
   set.places.resize(2, across * up);
-  for (Index k = 0; k < across * up; ++k)
-    set.places.col(k) << (static_cast<double>(k % across) + 0.5) / static_cast<double>(across),
-        (static_cast<double>(k / across) + 0.5) / static_cast<double>(up);
+  for (Index row = 0; row < up; ++row)
+    for (Index column = 0; column < across; ++column)
+      set.places.col(row * across + column)
+          << (static_cast<double>(column) + 0.5) / static_cast<double>(across),
+          (static_cast<double>(row) + 0.5) / static_cast<double>(up);
   return set;
 }
 

@@ -1,5 +1,6 @@
 // Hard case R2: the spectral radius is bounded before any Neumann run.
 
+#include "operators/operator_registry.hpp"
 #include "room_operators.hpp"
 #include "solvers/spectral_radius.hpp"
 
@@ -77,6 +78,17 @@ TEST(SpectralRadius, SignedSymmetricKernelsAreBoundedByLanczos) {
     // What positive fields alone say of a signed operator is nothing.
     EXPECT_FALSE(collatz_wielandt_bounds(RoomKernel(room)).upper.has_value());
   }
+}
+
+// Wavelets reproduce uniform fields, so that no product with one shows that their operator is signed.
+TEST(SpectralRadius, LowRankFactorsAreSignedThoughNoProductShowsIt) {
+  const FormFactors F = form_factors_of(closed_room(40, 3, 0.9));
+  const auto wavelets = cpu_operators().make("wavelet:k=8", F);
+  Field image(40, 1);
+  wavelets->apply(Field::Ones(40, 1), image);
+  EXPECT_GT(image.minCoeff(), 0);
+  EXPECT_FALSE(bound_spectral_radius(*wavelets).upper.has_value());
+  EXPECT_TRUE(bound_spectral_radius(*cpu_operators().make("svd:k=8,norm=area", F)).upper.has_value());
 }
 
 TEST(SpectralRadius, LanczosHelpsWhereRowsAreUneven) {
