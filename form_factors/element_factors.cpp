@@ -16,6 +16,9 @@ namespace {
 /// Elements whose geometry is held at once, with the patches beside them.
 constexpr Index batch_size = 16384;
 
+/// Enough for the wider tolerance of U; neighbouring elements average what is left.
+constexpr std::uint64_t least_rays = 64;
+
 void append(PatchMesh& mesh, const PatchMesh& source, Index patch, int face_offset) {
   Patch copy = source.patches[static_cast<std::size_t>(patch)];
   for (int k = 0; k < copy.corner_count; ++k) {
@@ -88,7 +91,7 @@ std::uint64_t compute_element_factors(const PatchMesh& elements, std::span<const
     const PairExchange exchange(
         joined_mesh(elements, order.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)),
                     patches),
-        options.tolerance, options.seed + static_cast<std::uint64_t>(first));
+        options.tolerance, options.seed + static_cast<std::uint64_t>(first), least_rays);
     Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(count, patches.patch_count());
     const std::vector<PatchCluster>& clusters = exchange.geometry().clusters();
     parallel_for(clusters.size(), [&](std::size_t c) {

@@ -21,12 +21,13 @@ bool all_behind(const std::vector<Eigen::Vector3d>& points, const Plane& plane) 
 
 }  // namespace
 
-PairExchange::PairExchange(const PatchMesh& mesh, double tolerance, std::uint64_t seed)
+PairExchange::PairExchange(const PatchMesh& mesh, double tolerance, std::uint64_t seed,
+                           std::uint64_t least_rays)
     : geometry_(mesh),
       occluders_(coarse_faces(mesh, geometry_)),
       sides_(geometry_, occluders_.blockers()),
       unobstructed_(geometry_, quadrature_tolerance(tolerance)),
-      visibility_(geometry_, occluders_, seed),
+      visibility_(geometry_, occluders_, seed, least_rays),
       tolerance_(tolerance) {}
 
 bool PairExchange::may_exchange(const PatchCluster& own, const PatchCluster& other) const {

@@ -32,8 +32,10 @@ struct ClusterExchange {
 /// alone, so that rows on demand and the assembled kernel agree.
 class PairExchange {
  public:
-  /// tolerance: estimated standard error of each F_ij and of each F between groups.
-  PairExchange(const PatchMesh& mesh, double tolerance, std::uint64_t seed);
+  /// tolerance: estimated standard error of each F_ij and of each F between groups. least_rays: of a pair
+  /// whose visibility cannot be proved, a multiple of 64.
+  PairExchange(const PatchMesh& mesh, double tolerance, std::uint64_t seed,
+               std::uint64_t least_rays = VisibilitySampling::usual_least_rays);
 
   const PatchGeometry& geometry() const { return geometry_; }
   const Occluders& occluders() const { return occluders_; }

@@ -33,8 +33,8 @@ double standard_variance(const std::array<Tally, kReplicates>& tallies, double f
 }  // namespace
 
 VisibilitySampling::VisibilitySampling(const PatchGeometry& geometry, const Occluders& occluders,
-                                       std::uint64_t seed)
-    : geometry_(geometry), occluders_(occluders), sampler_(geometry), seed_(seed) {}
+                                       std::uint64_t seed, std::uint64_t least_rays)
+    : geometry_(geometry), occluders_(occluders), sampler_(geometry), seed_(seed), least_rays_(least_rays) {}
 
 VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted,
                                                std::vector<RayPacket>* record) const {
@@ -49,7 +49,7 @@ VisibleFraction VisibilitySampling::operator()(int i, int j, double wanted,
   VisibleFraction fraction;
   RayPacket packet;
   alignas(64) float weight[RayPacket::size];
-  std::uint32_t done = 0, goal = static_cast<std::uint32_t>(least_rays / (16 * kReplicates));
+  std::uint32_t done = 0, goal = static_cast<std::uint32_t>(least_rays_ / (16 * kReplicates));
   while (true) {
     for (; done < goal; ++done) {
       for (std::size_t r = 0; r < kReplicates; ++r) {

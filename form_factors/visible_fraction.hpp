@@ -22,14 +22,16 @@ struct VisibleFraction {
 /// none before enough rays say so.
 class VisibilitySampling {
  public:
-  VisibilitySampling(const PatchGeometry& geometry, const Occluders& occluders, std::uint64_t seed);
+  /// `least_rays`: a multiple of 64 that every pair gets.
+  VisibilitySampling(const PatchGeometry& geometry, const Occluders& occluders, std::uint64_t seed,
+                     std::uint64_t least_rays = usual_least_rays);
 
-  /// At least least_rays, at most most_rays; stops once the standard error is <= wanted. Depends on (i, j)
+  /// At least the least rays, at most most_rays; stops once the standard error is <= wanted. Depends on (i, j)
   /// and the seed alone.
   /// `record`, if not null, receives a copy of every packet (for measuring the ray tracer alone).
   VisibleFraction operator()(int i, int j, double wanted, std::vector<RayPacket>* record = nullptr) const;
 
-  static constexpr std::uint64_t least_rays = 256;
+  static constexpr std::uint64_t usual_least_rays = 256;
   static constexpr std::uint64_t most_rays = std::uint64_t{1} << 20U;
 
  private:
@@ -37,6 +39,7 @@ class VisibilitySampling {
   const Occluders& occluders_;
   PairSampler sampler_;
   std::uint64_t seed_;
+  std::uint64_t least_rays_;
 };
 
 }  // namespace radiosity
