@@ -168,10 +168,11 @@ void QuadraturePoints::classify(int i, int begin, int end, PairHeights& heights)
   loops_.classify(arrays_, i, begin, end, heights);
 }
 
-void QuadraturePoints::exchange(int order, int i, int begin, int end, double* exchange) const {
-  const auto o = static_cast<std::size_t>(order);
-  loops_.exchange(arrays_, points_[o], point_count_[static_cast<std::size_t>(i)][o],
-                  point_count_[static_cast<std::size_t>(begin)][o], i, begin, end, exchange);
+void QuadraturePoints::exchange(int own_order, int other_order, int i, int begin, int end,
+                                double* exchange) const {
+  const auto own = static_cast<std::size_t>(own_order), other = static_cast<std::size_t>(other_order);
+  loops_.exchange(arrays_, points_[own], point_count_[static_cast<std::size_t>(i)][own], points_[other],
+                  point_count_[static_cast<std::size_t>(begin)][other], i, begin, end, exchange);
 }
 
 }  // namespace radiosity

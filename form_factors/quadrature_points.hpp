@@ -28,9 +28,9 @@ class QuadraturePoints {
   /// Heights and distances of patches begin ... end - 1 as seen from patch i.
   void classify(int i, int begin, int end, PairHeights& heights) const;
 
-  /// exchange[j - begin] = A_i F_ij unobstructed for begin <= j < end at one order; patches must face each
-  /// other wholly.
-  void exchange(int order, int i, int begin, int end, double* exchange) const;
+  /// exchange[j - begin] = A_i F_ij unobstructed for begin <= j < end, with points of one order on patch i
+  /// and of another on the patches j; patches must face each other wholly.
+  void exchange(int own_order, int other_order, int i, int begin, int end, double* exchange) const;
 
   const VectorLoops& loops() const { return loops_; }
   const PatchArrays& arrays() const { return arrays_; }

@@ -26,42 +26,49 @@ double UnobstructedExchange::by_contour(int i, int j) const {
   return contour_exchange(a, b, tolerance_);
 }
 
+int UnobstructedExchange::order_for(double radius, double distance_squared, bool triangles) const {
+  int order = 0;
+  for (const double least : least_ratio_[triangles ? 1 : 0]) {
+    if (distance_squared >= least * least * radius * radius) return order;
+    ++order;
+  }
+  return order;
+}
+
 void UnobstructedExchange::with_cluster(int i, const PatchCluster& cluster, double* exchange) const {
+  constexpr int orders = QuadraturePoints::orders;
   const int count = cluster.end - cluster.begin;
   const double slack = coplanar_slack;
   PairHeights heights;
   geometry_.quadrature().classify(i, cluster.begin, cluster.end, heights);
 
-  // Per patch: 0 none, 1 close or straddling, 2 + order for product quadrature.
+  // Per patch: 0 none, 1 close or straddling, 2 + own order * orders + other order for product quadrature.
+  // Each of the two needs the order that fits its own size: small elements few points even before large
+  // patches.
   std::array<signed char, PairHeights::capacity> way{};
-  int lowest = QuadraturePoints::orders, highest = -1;
-  const bool own_triangle = geometry_.polygon(i).corner_count() == 3;
-  const bool triangles = own_triangle || geometry_.polygon(cluster.begin).corner_count() == 3;
-  const auto& least = least_ratio_[triangles ? 1 : 0];
+  std::array<bool, std::size_t{orders} * orders> used{};
+  const bool triangles =
+      geometry_.polygon(i).corner_count() == 3 || geometry_.polygon(cluster.begin).corner_count() == 3;
   for (int l = 0; l < count; ++l) {
     const int j = cluster.begin + l;
     if (heights.other_high[l] <= slack || heights.own_high[l] <= slack) continue;
     way[static_cast<std::size_t>(l)] = 1;
     if (heights.other_low[l] < -slack || heights.own_low[l] < -slack) continue;
-    const double reach = std::max(geometry_.radius(i), geometry_.radius(j));
-    for (int order = 0; order < QuadraturePoints::orders; ++order) {
-      const double ratio = least[static_cast<std::size_t>(order)] * reach;
-      if (heights.distance_squared[l] >= ratio * ratio) {
-        way[static_cast<std::size_t>(l)] = static_cast<signed char>(2 + order);
-        lowest = std::min(lowest, order), highest = std::max(highest, order);
-        break;
-      }
-    }
+    const int own = order_for(geometry_.radius(i), heights.distance_squared[l], triangles);
+    const int other = order_for(geometry_.radius(j), heights.distance_squared[l], triangles);
+    if (own == orders || other == orders) continue;
+    way[static_cast<std::size_t>(l)] = static_cast<signed char>(2 + own * orders + other);
+    used[static_cast<std::size_t>(own * orders + other)] = true;
   }
 
   std::array<double, PairHeights::capacity> values;
   std::fill(exchange, exchange + count, 0.0);
-  for (int order = lowest; order <= highest; ++order) {
-    const auto wanted = static_cast<signed char>(2 + order);
-    if (std::find(way.begin(), way.begin() + count, wanted) == way.begin() + count) continue;
-    geometry_.quadrature().exchange(order, i, cluster.begin, cluster.end, values.data());
+  for (int pair = 0; pair < orders * orders; ++pair) {
+    if (!used[static_cast<std::size_t>(pair)]) continue;
+    geometry_.quadrature().exchange(pair / orders, pair % orders, i, cluster.begin, cluster.end,
+                                    values.data());
     for (int l = 0; l < count; ++l)
-      if (way[static_cast<std::size_t>(l)] == wanted)
+      if (way[static_cast<std::size_t>(l)] == 2 + pair)
         exchange[l] = std::max(0.0, values[static_cast<std::size_t>(l)]);
   }
   for (int l = 0; l < count; ++l)

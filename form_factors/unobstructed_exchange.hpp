@@ -24,6 +24,9 @@ class UnobstructedExchange {
  private:
   const PatchGeometry& geometry_;
   double tolerance_;
+  // The lowest order for a patch of this radius at this distance; QuadraturePoints::orders if none will do.
+  int order_for(double radius, double distance_squared, bool triangles) const;
+
   std::array<std::array<double, QuadraturePoints::orders>, 2> least_ratio_;  ///< [any triangle][order]
 };
 

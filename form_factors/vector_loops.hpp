@@ -67,8 +67,9 @@ struct BlockerPlanes {
 
 struct VectorLoops {
   void (*classify)(const PatchArrays&, int i, int begin, int end, PairHeights&);
-  void (*exchange)(const PatchArrays&, const PointArrays&, int own_points, int other_points, int i, int begin,
-                   int end, double* result);
+  void (*exchange)(const PatchArrays&, const PointArrays& own_rule, int own_points,
+                   const PointArrays& other_rule, int other_points, int i, int begin, int end,
+                   double* result);
   /// crosses[l] = 1 (else 0) where the segment between the centres of i and begin + l passes through the
   /// polygon.
   void (*crosses)(const PatchArrays&, const BlockerPlanes&, int i, int begin, int end, double* crosses);

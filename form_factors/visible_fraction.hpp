@@ -26,9 +26,9 @@ class VisibilitySampling {
   VisibilitySampling(const PatchGeometry& geometry, const Occluders& occluders, std::uint64_t seed,
                      std::uint64_t least_rays = usual_least_rays);
 
-  /// At least the least rays, at most most_rays; stops once the standard error is <= wanted. Depends on (i, j)
-  /// and the seed alone.
-  /// `record`, if not null, receives a copy of every packet (for measuring the ray tracer alone).
+  /// At least the least rays, at most most_rays; stops once the standard error is <= wanted. Depends on (i,
+  /// j) and the seed alone. `record`, if not null, receives a copy of every packet (for measuring the ray
+  /// tracer alone).
   VisibleFraction operator()(int i, int j, double wanted, std::vector<RayPacket>* record = nullptr) const;
 
   static constexpr std::uint64_t usual_least_rays = 256;
