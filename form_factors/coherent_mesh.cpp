@@ -27,20 +27,10 @@ struct Candidate {
 
 /// Where along an edge to cut: in the gap between two rows of elements that is nearest to its middle.
 double place_of_cut(const PatchMesh& elements, const Candidate& patch, std::size_t edge) {
-  constexpr double gap = 1e-6;
-  const Vector3& from = patch.polygon[edge];
-  const Vector3 along = patch.polygon[edge + 1] - from;
-  std::vector<double> places;
-  places.reserve(patch.elements.size());
-  for (const Index e : patch.elements)
-    places.push_back(along.dot(elements.centroid.col(e) - from) / along.squaredNorm());
-  std::sort(places.begin(), places.end());
-  double best = 1;
-  for (std::size_t k = 1; k < places.size(); ++k) {
-    const double middle = 0.5 * (places[k - 1] + places[k]);
-    if (places[k] - places[k - 1] > gap && std::fabs(middle - 0.5) < std::fabs(best - 0.5)) best = middle;
-  }
-  return best > 0 && best < 1 ? best : 0.5;
+  const std::vector<double> gaps = gaps_along(elements, patch.elements, patch.polygon, edge);
+  const auto nearest = std::min_element(
+      gaps.begin(), gaps.end(), [](double a, double b) { return std::fabs(a - 0.5) < std::fabs(b - 0.5); });
+  return nearest == gaps.end() ? 0.5 : *nearest;
 }
 
 /// Algorithm 1 from given patches.
@@ -50,9 +40,7 @@ class TopDownSplitting {
                    const CoherentMeshOptions& options)
       : elements_(elements), views_(views), options_(options) {
     const PatchMesh& patches = start.patches;
-    std::vector<std::vector<Index>> members(patches.patches.size());
-    for (Index e = 0; e < elements.patch_count(); ++e)
-      members[static_cast<std::size_t>(start.patch_of_element[static_cast<std::size_t>(e)])].push_back(e);
+    std::vector<std::vector<Index>> members = elements_by_patch(start);
     for (std::size_t p = 0; p < members.size(); ++p)
       add(static_cast<std::size_t>(patches.patches[p].face), polygon_of(patches, static_cast<Index>(p)),
           std::move(members[p]));

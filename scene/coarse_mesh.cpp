@@ -2,9 +2,12 @@
 
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
+#include "scene/conforming_cells.hpp"
+#include "scene/face_subdivision.hpp"
 #include "scene/patch_division.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -67,6 +70,67 @@ int patch_of(const PatchMesh& elements, Index element, const PatchMesh& patches,
   return found >= 0 ? found : nearest_patch(patches, lists.all, centroid, anything);
 }
 
+/// 0, the gaps nearest to 1 / parts, 2 / parts, ..., 1: each once. Without gaps, the places themselves.
+std::vector<double> cuts_at(const std::vector<double>& gaps, std::int64_t parts) {
+  std::vector<double> cuts = {0};
+  for (std::int64_t i = 1; i < parts; ++i) {
+    const double place = static_cast<double>(i) / static_cast<double>(parts);
+    double cut = place;
+    if (!gaps.empty()) {
+      const auto after = std::lower_bound(gaps.begin(), gaps.end(), place);
+      const bool take_before =
+          after == gaps.end() || (after != gaps.begin() && place - *(after - 1) <= *after - place);
+      cut = take_before ? *(after - 1) : *after;
+    }
+    if (cut > cuts.back()) cuts.push_back(cut);
+  }
+  cuts.push_back(1);
+  return cuts;
+}
+
+/// Cells of a quad between rows of its elements.
+std::vector<Polygon> aligned_grid(const PatchMesh& elements, const std::vector<Index>& members,
+                                  const Polygon& quad, GridSize size) {
+  const std::vector<double> u = cuts_at(gaps_along(elements, members, quad, 0), size.columns);
+  const std::vector<double> v = cuts_at(gaps_along(elements, members, quad, 1), size.rows);
+  const auto at = [&](double s, double t) -> Vector3 {
+    return (1 - s) * (1 - t) * quad[0] + s * (1 - t) * quad[1] + s * t * quad[2] + (1 - s) * t * quad[3];
+  };
+  std::vector<Polygon> cells;
+  cells.reserve((u.size() - 1) * (v.size() - 1));
+  for (std::size_t j = 1; j < v.size(); ++j)
+    for (std::size_t i = 1; i < u.size(); ++i)
+      cells.push_back({at(u[i - 1], v[j - 1]), at(u[i], v[j - 1]), at(u[i], v[j]), at(u[i - 1], v[j])});
+  return cells;
+}
+
+/// The patches of a mesh cut to one edge length, the shortest that gives no more than k.
+PatchMesh cut_uniformly(const PatchMesh& elements, const CoarseMesh& mesh, Index k) {
+  std::vector<Polygon> polygons;
+  polygons.reserve(mesh.patches.patches.size());
+  for (Index p = 0; p < mesh.patches.patch_count(); ++p) polygons.push_back(polygon_of(mesh.patches, p));
+  const auto count_for = [&](double edge) {
+    std::int64_t count = 0;
+    for (const Polygon& polygon : polygons) {
+      const GridSize size = polygon.size() == 4 ? grid_size(polygon, edge) : GridSize{};
+      count += polygon.size() == 4 ? size.rows * size.columns : bisection_count(polygon, edge, 0);
+    }
+    return count;
+  };
+  const double edge = edges_around(diagonal(*mesh.patches.scene), k + 1, count_for).second;
+  const std::vector<std::vector<Index>> members = elements_by_patch(mesh);
+  std::vector<std::vector<Polygon>> parts(mesh.patches.scene->faces.size());
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    std::vector<Polygon> cells = polygons[p].size() == 4 ? aligned_grid(elements, members[p], polygons[p],
+                                                                        grid_size(polygons[p], edge))
+                                                         : bisect(polygons[p], edge, 0);
+    auto& of_face = parts[static_cast<std::size_t>(mesh.patches.patches[p].face)];
+    of_face.insert(of_face.end(), std::make_move_iterator(cells.begin()),
+                   std::make_move_iterator(cells.end()));
+  }
+  return mesh_of_parts(mesh.patches, std::move(parts));
+}
+
 CoarseMesh elements_themselves(const PatchMesh& elements) {
   CoarseMesh coarse{elements, std::vector<int>(elements.patches.size())};
   std::iota(coarse.patch_of_element.begin(), coarse.patch_of_element.end(), 0);
@@ -116,16 +180,34 @@ PatchMesh coarsest_patches(const PatchMesh& elements) {
 std::optional<CoarseMesh> uniform_coarse_mesh(const PatchMesh& elements, Index k, Assignment assignment) {
   if (!elements.scene) return std::nullopt;
   if (elements.patch_count() <= k) return elements_themselves(elements);
-  const auto faces = static_cast<Index>(elements.scene->faces.size());
-  // A wanted number is met only nearly: ask for less until what comes is no more than k.
-  for (Index wanted = k; wanted >= faces;) {
-    const PatchMesh patches = make_patches(*elements.scene, {.patches = wanted});
-    const Index surplus = patches.patch_count() - k;
-    if (surplus <= 0) return assign_elements(elements, patches, assignment);
-    if (wanted == faces) break;
-    wanted = std::max(faces, wanted - surplus);
+  const CoarseMesh coarsest = assign_elements(elements, coarsest_patches(elements), Assignment::inclusion);
+  if (coarsest.patches.patch_count() > k) return std::nullopt;
+  return assign_elements(elements, cut_uniformly(elements, coarsest, k), assignment);
+}
+
+std::vector<double> gaps_along(const PatchMesh& elements, const std::vector<Index>& members,
+                               const Polygon& quad, std::size_t edge) {
+  constexpr double least_gap = 1e-6;
+  const Vector3& from = quad[edge];
+  const Vector3 along = quad[edge + 1] - from;
+  std::vector<double> places;
+  places.reserve(members.size());
+  for (const Index e : members)
+    places.push_back(along.dot(elements.centroid.col(e) - from) / along.squaredNorm());
+  std::sort(places.begin(), places.end());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double middle = 0.5 * (places[i - 1] + places[i]);
+    if (places[i] - places[i - 1] > least_gap && middle > 0 && middle < 1) gaps.push_back(middle);
   }
-  return std::nullopt;
+  return gaps;
+}
+
+std::vector<std::vector<Index>> elements_by_patch(const CoarseMesh& mesh) {
+  std::vector<std::vector<Index>> members(mesh.patches.patches.size());
+  for (std::size_t e = 0; e < mesh.patch_of_element.size(); ++e)
+    members[static_cast<std::size_t>(mesh.patch_of_element[e])].push_back(static_cast<Index>(e));
+  return members;
 }
 
 std::size_t longer_edges(const Polygon& quad) {

@@ -27,10 +27,17 @@ CoarseMesh assign_elements(const PatchMesh& elements, const PatchMesh& patches, 
 /// The scene of `elements` in as few patches as its faces allow.
 PatchMesh coarsest_patches(const PatchMesh& elements);
 
-/// A uniform coarse mesh of at most k patches, as near to k as the scene's subdivision comes; the elements
-/// themselves if there are no more than k. Empty if the faces alone are more than k, or if nothing is known
-/// of the scene.
+/// A uniform coarse mesh of at most k patches: the faces cut to one edge length, the shortest that gives no
+/// more than k, between rows of elements; the elements themselves if there are no more than k. Empty if the
+/// faces alone are more than k, or if nothing is known of the scene.
 std::optional<CoarseMesh> uniform_coarse_mesh(const PatchMesh& elements, Index k, Assignment assignment);
+
+/// The elements of each patch, rising.
+std::vector<std::vector<Index>> elements_by_patch(const CoarseMesh& mesh);
+
+/// Where along an edge (0 or 1) of a quad, from 0 to 1, its elements leave gaps between their rows: rising.
+std::vector<double> gaps_along(const PatchMesh& elements, const std::vector<Index>& members,
+                               const Polygon& quad, std::size_t edge);
 
 /// The edge, 0 or 1, that is longer together with the one opposite.
 std::size_t longer_edges(const Polygon& quad);
