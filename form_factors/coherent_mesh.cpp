@@ -15,7 +15,7 @@ namespace {
 
 /// A patch on its way.
 struct Candidate {
-  double incoherence = 0;  ///< area times square; 0 for patches that are coherent or may not be cut
+  double incoherence = 0;  ///< times area; 0 for patches that are coherent or may not be cut
   std::size_t number = 0;  ///< in the order in which patches were made
   std::size_t face = 0;
   Polygon polygon;
@@ -51,7 +51,7 @@ class TopDownSplitting {
       split();
   }
 
-  /// The sum of area times incoherence squared.
+  /// The sum of area times incoherence.
   double incoherence() const {
     double sum = 0;
     for (auto rest = patches_; !rest.empty(); rest.pop()) sum += rest.top().incoherence;
@@ -106,7 +106,7 @@ class TopDownSplitting {
     const double area = area_vector(patch.polygon).norm();
     if (patch.elements.size() > 1 && area > options_.least_area) {
       const double incoherence = views_.incoherence(patch.polygon);
-      if (incoherence > options_.threshold) patch.incoherence = area * incoherence * incoherence;
+      if (incoherence > options_.threshold) patch.incoherence = area * incoherence;
     }
     patches_.push(std::move(patch));
   }
