@@ -25,11 +25,6 @@ std::string cpu_model() {
   return "unknown";
 }
 
-double load_average() {
-  double average = 0;
-  return getloadavg(&average, 1) == 1 ? average : 0;
-}
-
 /// Eight independent sums, so that the loop waits for memory and not for its own additions.
 std::uint64_t sum_words(const std::uint64_t* words, std::size_t count) {
   std::uint64_t sums[8] = {};
@@ -70,6 +65,20 @@ double measure_read_bandwidth(double seconds) {
     words[0] ^= sums[chunks - 1];  // the next pass depends on this one: nothing to optimise away
   } while (total.seconds() < seconds);
   return best;
+}
+
+double load_average() {
+  double average = 0;
+  return getloadavg(&average, 1) == 1 ? average : 0;
+}
+
+double available_memory() {
+  std::ifstream information("/proc/meminfo");
+  std::string key;
+  double kilobytes = 0;
+  for (std::string unit; information >> key >> kilobytes; std::getline(information, unit))
+    if (key == "MemAvailable:") return 1024 * kilobytes;
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 Machine measure_machine() {
