@@ -19,6 +19,8 @@ constexpr Index entries_of_a_task = 65536;
 
 /// Panels whose products with one column may be added up in single precision.
 constexpr Index run_panels = tiles_together;
+/// Panels whose rows of X are converted together: a few runs.
+constexpr Index converted_panels = 4 * run_panels;
 
 template <typename Scalar>
 using TallField = BlockedField<typename Multiplier<Scalar>::Type>;
@@ -78,13 +80,13 @@ void multiply_tall(const TallMatrix<Scalar>& M, const ConstFieldRef& C, FieldRef
   }
 }
 
-/// Adds what one run of panels contributes to M' X to the sums of a chunk.
+/// Adds what panels begin ... end - 1, a run, contribute to M' X to the sums of a chunk; X is the field from
+/// row 64 first_panel.
 template <typename Scalar>
-void multiply_run_transposed(const TallMatrix<Scalar>& M, Index run, const TallField<Scalar>& X,
-                             const TileProducts<Scalar>& products, Index chunk, PartialSums& sums) {
+void multiply_run_transposed(const TallMatrix<Scalar>& M, Index begin, Index end, const TallField<Scalar>& X,
+                             Index first_panel, const TileProducts<Scalar>& products, Index chunk,
+                             PartialSums& sums) {
   alignas(64) std::array<typename Multiplier<Scalar>::Type, row_lanes_size<Scalar>> lanes;
-  const Index begin = run * run_panels;
-  const Index end = std::min(begin + run_panels, M.panels());
   for (Index p = 0; p < M.columns(); p += columns_to_sum)
     for (Index c = 0; c < X.columns(); c += products.most_columns) {
       const Index columns = std::min<Index>(products.most_columns, X.columns() - c);
@@ -96,12 +98,30 @@ void multiply_run_transposed(const TallMatrix<Scalar>& M, Index run, const TallF
         task.row_lanes = lanes.data();
         task.first = panel == begin;
         task.last = panel + 1 == end;
-        task.x_columns = X.block(panel) + 64 * c;
-        task.x_columns_scale = X.scale(panel) + c;
+        task.x_columns = X.block(panel - first_panel) + 64 * c;
+        task.x_columns_scale = X.scale(panel - first_panel) + c;
         task.y_rows = sums.block(chunk, p / 64) + 64 * c + p % 64;
         products.to_rows[static_cast<std::size_t>(columns - 1)](task);
       }
     }
+}
+
+/// Adds what runs begin ... end - 1 contribute to M' X to the sums of a chunk.
+template <typename Scalar>
+void multiply_chunk_transposed(const TallMatrix<Scalar>& M, Index begin, Index end, const ConstFieldRef& X,
+                               Index first_column, Index columns, const TileProducts<Scalar>& products,
+                               Index chunk, PartialSums& sums) {
+  sums.start(chunk);
+  const Index last_panel = std::min(end * run_panels, M.panels());
+  // A few runs of X at a time are converted right before their use and never leave the cache.
+  for (Index first = begin * run_panels; first < last_panel; first += converted_panels) {
+    const Index last = std::min(first + converted_panels, last_panel);
+    const Index rows = std::min(64 * last, M.rows()) - 64 * first;
+    const TallField<Scalar> field(X.middleRows(64 * first, rows), first_column, columns);
+    for (Index panel = first; panel < last; panel += run_panels)
+      multiply_run_transposed(M, panel, std::min(panel + run_panels, last), field, first, products, chunk,
+                              sums);
+  }
 }
 
 template <typename Scalar>
@@ -113,14 +133,12 @@ void multiply_tall_transposed(const TallMatrix<Scalar>& M, const ConstFieldRef& 
   const Index chunks = std::clamp<Index>(std::min(runs, M.rows() * M.columns() / entries_of_a_task), 1, 64);
   for (Index first = 0; first < X.cols(); first += columns_at_once) {
     const Index columns = std::min(columns_at_once, X.cols() - first);
-    const TallField<Scalar> blocked(X, first, columns);
     PartialSums sums((M.columns() + 63) / 64, columns,
                      std::vector<Index>(static_cast<std::size_t>(chunks), 0));
     parallel_for(static_cast<std::size_t>(chunks), [&](std::size_t index) {
       const auto chunk = static_cast<Index>(index);
-      sums.start(chunk);
-      for (Index run = runs * chunk / chunks; run < runs * (chunk + 1) / chunks; ++run)
-        multiply_run_transposed(M, run, blocked, products, chunk, sums);
+      multiply_chunk_transposed(M, runs * chunk / chunks, runs * (chunk + 1) / chunks, X, first, columns,
+                                products, chunk, sums);
     });
     sums.finish(M.scale(), first, C);
   }
