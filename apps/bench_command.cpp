@@ -5,6 +5,7 @@
 #include "apps/terminal_monitor.hpp"
 #include "experiments/apply_benchmark.hpp"
 #include "experiments/form_factor_benchmark.hpp"
+#include "experiments/low_rank_benchmark.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 
@@ -27,6 +28,7 @@ struct BenchOptions {
   std::string scene = "cornell-box-closed";
   std::optional<Index> patches;
   std::vector<std::string> operators;
+  std::vector<std::string> sizes;
   RunOptions run;
 };
 
@@ -55,8 +57,16 @@ void bench_form_factors(const BenchOptions& options, const Program&) {
   std::cout << form_factor_benchmark_text(result) << std::flush;
 }
 
-constexpr std::array<Benchmark, 2> benchmarks = {
-    {{"apply", bench_apply}, {"form-factors", bench_form_factors}}};
+void bench_low_rank(const BenchOptions& options, const Program&) {
+  LowRankBenchmarkOptions sizes;
+  if (!options.sizes.empty()) sizes.sizes.clear();
+  for (const std::string& size : options.sizes) sizes.sizes.push_back(LowRankSize::parse(size));
+  if (options.run.threads > 0) sizes.threads = {options.run.threads};
+  print_low_rank_benchmark(benchmark_low_rank(sizes), std::cout);
+}
+
+constexpr std::array<Benchmark, 3> benchmarks = {
+    {{"apply", bench_apply}, {"form-factors", bench_form_factors}, {"low-rank", bench_low_rank}}};
 
 void run_bench(const BenchOptions& options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
@@ -64,7 +74,8 @@ void run_bench(const BenchOptions& options, const Program& program) {
   for (const std::string& name : options.names)
     if (std::none_of(benchmarks.begin(), benchmarks.end(),
                      [&](const Benchmark& known) { return name == known.name; }))
-      fail<UsageError>("there is no benchmark '{}'; the known ones are apply and form-factors", name);
+      fail<UsageError>("there is no benchmark '{}'; the known ones are apply, form-factors and low-rank",
+                       name);
   for (const Benchmark& benchmark : benchmarks)
     if (options.names.empty() ||
         std::find(options.names.begin(), options.names.end(), benchmark.name) != options.names.end())
@@ -77,7 +88,8 @@ void add_bench_command(CLI::App& app, const Program& program) {
   CLI::App* command =
       app.add_subcommand("bench", "speed of products and of form factors, against the machine's limits");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("NAME", options->names, "apply or form-factors; default: both")->option_text(" ");
+  command->add_option("NAME", options->names, "apply, form-factors or low-rank; default: all")
+      ->option_text(" ");
   command->add_option("--scene", options->scene, "for form-factors; default cornell-box-closed")
       ->option_text("SCENE");
   command
@@ -88,6 +100,9 @@ void add_bench_command(CLI::App& app, const Program& program) {
   command->add_option("--operators", options->operators, "for apply; default: all")
       ->expected(1, -1)
       ->option_text("SPEC ...");
+  command->add_option("--sizes", options->sizes, "n x k for low-rank; default 221184x216 55296x864")
+      ->expected(1, -1)
+      ->option_text("NxK ...");
   add_run_options(*command, options->run);
   command->callback([options, &program] { run_bench(*options, program); });
 }

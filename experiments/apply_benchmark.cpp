@@ -1,73 +1,20 @@
 #include "experiments/apply_benchmark.hpp"
 
+#include "experiments/machine.hpp"
+#include "experiments/read_stream.hpp"
+#include "experiments/taking_turns.hpp"
 #include "factorizations/blas_threads.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
-#include "foundation/stopwatch.hpp"
-#include "kernels/aligned_memory.hpp"
 
-#include <cblas.h>
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <functional>
 #include <memory>
 #include <ostream>
-#include <unistd.h>
 
 namespace radiosity {
 namespace {
-
-double load_average() {
-  double average = 0;
-  return getloadavg(&average, 1) == 1 ? average : 0;
-}
-
-/// Reads a large buffer at the speed of memory, a quarter at a time: about as long as an operator takes, so
-/// that the best of many readings is as likely to be undisturbed.
-class Stream {
- public:
-  explicit Stream(std::size_t bytes)
-      : chunk_words_(std::max<std::size_t>(bytes / sizeof(double) / chunks / lanes, 1) * lanes),
-        words_(chunks * chunk_words_),
-        sums_(chunks) {
-    parallel_for(chunks, [&](std::size_t chunk) { std::fill_n(begin(chunk), chunk_words_, 1.0); });
-  }
-
-  static constexpr int quarters = 4;
-  std::size_t quarter_bytes() const { return chunks / quarters * chunk_words_ * sizeof(double); }
-
-  void read_quarter() {
-    next_ = (next_ + 1) % quarters;
-    const std::size_t first = next_ * (chunks / quarters);
-    parallel_for(chunks / quarters, [&](std::size_t k) { sums_[first + k] = sum(begin(first + k)); });
-    if (sums_[first] != static_cast<double>(chunk_words_))
-      fail("the memory does not hold what was written to it");
-  }
-
- private:
-  static constexpr std::size_t chunks = 256;
-  static constexpr std::size_t lanes = 32;
-
-  double* begin(std::size_t chunk) const { return words_.data() + chunk * chunk_words_; }
-
-  /// 32 sums side by side, so that the loop waits for memory and not for its own additions.
-  double sum(const double* words) const {
-    double sums[lanes] = {};
-    for (std::size_t i = 0; i < chunk_words_; i += lanes)
-      for (std::size_t k = 0; k < lanes; ++k) sums[k] += words[i + k];
-    double total = 0;
-    for (const double part : sums) total += part;
-    return total;
-  }
-
-  std::size_t chunk_words_;
-  AlignedBuffer<double> words_;
-  std::vector<double> sums_;
-  std::size_t next_ = 0;
-};
 
 /// A kernel in which every entry is positive and rows sum to less than 1.
 FormFactors synthetic_form_factors(Index n) {
@@ -96,16 +43,6 @@ FormFactors synthetic_form_factors(Index n) {
   return form_factors;
 }
 
-/// Everything that is timed; a function that multiplies once.
-struct Competitor {
-  std::string name;
-  Index columns;
-  std::size_t bytes;
-  std::function<void()> multiply;
-  int turns = 1;  ///< in each repetition
-  std::vector<double> seconds = {};
-};
-
 class Contest {
  public:
   Contest(const OperatorRegistry& registry, const ApplyBenchmarkOptions& options)
@@ -117,7 +54,7 @@ class Contest {
     single_.setConstant(1e-3F);
     double_.setConstant(1e-3);
     competitors_.push_back(
-        {"read", 0, stream_.quarter_bytes(), [this] { stream_.read_quarter(); }, Stream::quarters});
+        {"read", 0, stream_.quarter_bytes(), [this] { stream_.read_quarter(); }, ReadStream::quarters});
     for (const Index columns : options.columns) add_libraries(columns);
     for (const std::string& spec : specs(registry, options)) {
       operators_.push_back(registry.make(spec, form_factors_));
@@ -131,17 +68,7 @@ class Contest {
     result.threads = ThreadLimit::current();
     result.load_before = load_average();
     const BlasThreads blas_threads(result.threads);
-    for (Competitor& competitor : competitors_) competitor.seconds.clear();
-    const Stopwatch total;
-    do {
-      for (Competitor& competitor : competitors_)
-        for (int turn = 0; turn < competitor.turns; ++turn) {
-          const Stopwatch watch;
-          competitor.multiply();
-          competitor.seconds.push_back(watch.seconds());
-        }
-      ++result.repetitions;
-    } while (total.seconds() < seconds);
+    result.repetitions = take_turns(competitors_, seconds);
     result.load_after = load_average();
     fill_rows(result);
     return result;
@@ -198,17 +125,16 @@ class Contest {
   void fill_rows(ApplyBenchmark& result) const {
     double sgemv = 0;
     for (const Competitor& competitor : competitors_) {
-      std::vector<double> sorted = competitor.seconds;
-      std::sort(sorted.begin(), sorted.end());
-      const double rate = 1e-9 * static_cast<double>(competitor.bytes) / sorted.front();
+      const double fastest = competitor.seconds_min();
       if (competitor.name == "read") {
-        result.read_bandwidth_gb_s = rate;
+        result.read_bandwidth_gb_s = competitor.gigabytes_per_second();
         continue;
       }
-      if (competitor.name == "OpenBLAS sgemv") sgemv = sorted.front();
-      result.rows.push_back({competitor.name, competitor.columns, competitor.bytes, sorted.front(),
-                             sorted[sorted.size() / 2], rate / result.read_bandwidth_gb_s,
-                             sgemv * static_cast<double>(competitor.columns) / sorted.front()});
+      if (competitor.name == "OpenBLAS sgemv") sgemv = fastest;
+      result.rows.push_back({competitor.name, competitor.columns, competitor.bytes, fastest,
+                             competitor.seconds_median(),
+                             competitor.gigabytes_per_second() / result.read_bandwidth_gb_s,
+                             sgemv * static_cast<double>(competitor.columns) / fastest});
     }
   }
 
@@ -216,20 +142,10 @@ class Contest {
   FormFactors form_factors_;
   Eigen::MatrixXf single_;
   Eigen::MatrixXd double_;
-  Stream stream_;
+  ReadStream stream_;
   std::vector<std::unique_ptr<LinearOperator>> operators_;
   std::vector<Competitor> competitors_;
 };
-
-/// Bytes that can be had without swapping; all there are where the system does not say.
-double available_memory() {
-  std::ifstream information("/proc/meminfo");
-  std::string key;
-  double kilobytes = 0;
-  for (std::string unit; information >> key >> kilobytes; std::getline(information, unit))
-    if (key == "MemAvailable:") return 1024 * kilobytes;
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 void check_options(const ApplyBenchmarkOptions& options) {
   if (options.size < 1 || options.size > 1 << 20)

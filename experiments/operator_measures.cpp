@@ -10,7 +10,7 @@ namespace radiosity {
 
 namespace {
 
-constexpr Index block = SymmetricTiles<double>::tile_size;
+constexpr Index tile_width = SymmetricTiles<double>::tile_size;
 
 /// Columns first ... first + width - 1 of A^{1/2} F A^{-1/2}, which is K where F is symmetric.
 Eigen::MatrixXd exact_columns(const FormFactors& form_factors, Index first, Index width) {
@@ -24,16 +24,17 @@ Eigen::MatrixXd exact_columns(const FormFactors& form_factors, Index first, Inde
     return columns;
   }
   const SymmetricTiles<double>& kernel = *form_factors.kernel;
-  const Index tile_column = first / block;
+  const Index tile_column = first / tile_width;
   for (Index tile_row = 0; tile_row < kernel.tile_rows(); ++tile_row) {
     const Index tile = kernel.find_tile(std::min(tile_row, tile_column), std::max(tile_row, tile_column));
     if (tile < 0) continue;
     const double* entries = kernel.tile_data(tile);
-    const Index height = std::min(block, n - tile_row * block);
+    const Index height = std::min(tile_width, n - tile_row * tile_width);
     for (Index r = 0; r < height; ++r)
       for (Index k = 0; k < width; ++k)
-        columns(tile_row * block + r, k) =
-            kernel.scale() * (tile_row <= tile_column ? entries[r * block + k] : entries[k * block + r]);
+        columns(tile_row * tile_width + r, k) =
+            kernel.scale() *
+            (tile_row <= tile_column ? entries[r * tile_width + k] : entries[k * tile_width + r]);
   }
   return columns;
 }
@@ -86,9 +87,9 @@ std::optional<double> relative_frobenius_error(const LinearOperator& approximati
   const Index n = form_factors.patch_count();
   const auto* kernel = dynamic_cast<const KernelOperator*>(&approximation);
   Sums sums;
-  for (Index first = 0; first < n; first += block) {
+  for (Index first = 0; first < n; first += tile_width) {
     monitor.checkpoint("operator error", static_cast<double>(first) / static_cast<double>(n));
-    const Eigen::MatrixXd exact = exact_columns(form_factors, first, std::min(block, n - first));
+    const Eigen::MatrixXd exact = exact_columns(form_factors, first, std::min(tile_width, n - first));
     if (kernel != nullptr)
       add_kernel_block(*kernel, exact, first, sums);
     else

@@ -12,8 +12,14 @@ namespace {
 /// The power of two that the stored numbers of a column's group of blocks are to be multiplied by; 1 where
 /// none would help (zeros, NaN, infinity).
 double power_of_two_scale(const double* x, Index count) {
-  double largest = 0;
-  for (Index i = 0; i < count; ++i) largest = std::max(largest, std::fabs(x[i]));
+  // Side by side: one comparison waits for the one before it.
+  constexpr Index lanes = 8;
+  double largest_of_lane[lanes] = {};
+  Index i = 0;
+  for (; i + lanes <= count; i += lanes)
+    for (Index k = 0; k < lanes; ++k) largest_of_lane[k] = std::max(largest_of_lane[k], std::fabs(x[i + k]));
+  double largest = *std::max_element(largest_of_lane, largest_of_lane + lanes);
+  for (; i < count; ++i) largest = std::max(largest, std::fabs(x[i]));
   if (largest == 0 || !std::isfinite(largest)) return 1;
   // Below 2^-1000 the inverse of the scale would overflow.
   return std::ldexp(1.0, std::max(std::ilogb(largest) - 15, -1000));

@@ -6,7 +6,7 @@
 //     row_sums(lanes): a vector whose r-th number is the sum of the width numbers at lanes + r width, and
 //     add_scaled(y, v, s): y[k] += s v[k] in double;
 //   strip_vectors<Number, columns>: how many vectors of a row are worked on together (a divisor of 64 /
-//   width), and strip_rows<Number, columns>: how many rows, so that all sums stay in registers.
+//   width), and strip_rows<Number, columns, to_columns>: how many rows, so that all sums stay in registers.
 //
 // Every entry is loaded (and converted) once and used for `columns` columns in both directions. The tile is
 // cut into strips of columns. Sums down a strip stay in registers; sums along the rows stay apart by lane in
@@ -37,7 +37,7 @@ class TileLoop {
   static constexpr int width = L::width;
   static constexpr int vectors = strip_vectors<Number, columns>;
   static constexpr int strip = width * vectors;
-  static constexpr int rows_together = strip_rows<Number, columns>;
+  static constexpr int rows_together = strip_rows<Number, columns, to_columns>;
 
   /// All rows, `strip` columns wide from column `first`.
   [[gnu::always_inline]] inline void multiply_strip(int first) const {

@@ -64,7 +64,7 @@ struct Lanes<float> {
 // of X.
 template <typename Number, int columns>
 constexpr int strip_vectors = columns == 1 ? 4 : 2;
-template <typename Number, int columns>
+template <typename Number, int columns, bool to_columns>
 constexpr int strip_rows = columns <= 2 ? 2 : 1;
 
 }  // namespace

@@ -85,8 +85,8 @@ struct Lanes<float> {
 // of X.
 template <typename Number, int columns>
 constexpr int strip_vectors = 4;
-template <typename Number, int columns>
-constexpr int strip_rows = columns <= 2 ? 4 : 2;
+template <typename Number, int columns, bool to_columns>
+constexpr int strip_rows = columns <= 2 || !to_columns ? 4 : 2;
 
 }  // namespace
 }  // namespace radiosity
