@@ -7,6 +7,7 @@
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 
+#include <cblas.h>
 #include <fmt/ostream.h>
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 #include "foundation/random.hpp"
 #include "kernels/segment_sums.hpp"
 
+#include <cblas.h>
 #include <fmt/ostream.h>
 
 #include <algorithm>

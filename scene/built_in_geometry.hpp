@@ -35,12 +35,6 @@ Scene make_l_room(Spec& spec);
 /// and box1, box2, ...; reflectance= is that of all other surfaces. Watertight.
 Scene make_clutter(Spec& spec);
 
-/// Two floors of galleries around a court that is open to the sky, behind arcades of square pillars, 12.6 m
-/// wide (document 004, Figure 4). 377 rectangles, so that 8 x 8 quads of each are the document's n = 24128.
-/// Groups: court, ground/floor, ground/ceiling, ground/walls, ground/pillars, ground/beams, the same of
-/// upper/ with upper/parapet, and four lamps, lamp1 and lamp2 downstairs, lamp3 and lamp4 upstairs.
-Scene make_patio(Spec& spec);
-
 /// The inside of a unit sphere as 2 rings^2 facets in rings (3 to 64) of trapezoids, the corners on the
 /// sphere, where F_ij = A_j / A (hard case E2; the facets come near with 1 / rings^2); the upper quarter of
 /// the rings is the group light, the rest wall. Watertight.
