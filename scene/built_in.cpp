@@ -26,6 +26,8 @@ const std::vector<BuiltInScene>& built_in_scenes() {
       {"l-room", "l-room:reflectance=0.5", "an L-shaped room, lit at one end", make_l_room},
       {"clutter", "clutter:boxes=12,seed=1,reflectance=0.73",
        "unit cube with a red and a green wall and floating boxes", make_clutter},
+      {"patio", "patio:sky=open",
+       "two storeys of arcades around a court, 16 lamps; 24128 patches are squares", make_patio},
       {"sphere-cavity", "sphere-cavity:rings=12,reflectance=0.5",
        "inside of a faceted sphere, the top emits (E2)", make_sphere_cavity},
       {"bowl", "bowl:beta=60,rings=8,reflectance=0.5",
