@@ -84,7 +84,7 @@ struct PatioMaterials {
         tiles(builder.material({"tiles", {0.52, 0.27, 0.17}, Color::Zero()})),
         paving(builder.material({"paving", {0.42, 0.40, 0.37}, Color::Zero()})),
         canopy(builder.material({"canopy", {0.70, 0.72, 0.74}, Color::Zero()})),
-        lamp(builder.material({"lamp", {0.80, 0.80, 0.80}, {45, 36, 24}})) {}
+        lamp(builder.material({"lamp", {0.80, 0.80, 0.80}, {44, 38, 29}})) {}
 
   int plaster, whitewash, stone, tiles, paving, canopy, lamp;
 };
@@ -94,29 +94,36 @@ struct Surface {
   int material = 0;
 };
 
-/// What a wall of the grid is part of: told by the cell in front of it.
-Surface surface_of(const RectilinearWall& wall, const PatioMaterials& materials) {
-  const int layer = wall.cell[1];
+/// "ground/" or "upper/", the storey that a layer is part of.
+std::string storey_of(int layer) {
+  return layer == kGroundStorey || layer == kUpperSlab ? "ground/" : "upper/";
+}
+
+/// Floors, ceilings and what is like them, by the cell that they bound.
+Surface level_surface(const RectilinearWall& wall, const PatioMaterials& materials) {
   const Place place = place_of(wall.cell);
-  const std::string storey = layer == kGroundStorey || layer == kUpperSlab ? "ground/" : "upper/";
-  if (wall.axis == 1) {
-    if (place == Place::court)
-      return wall.faces_up ? Surface{"court", materials.paving} : Surface{"sky", materials.canopy};
-    if (!wall.faces_up) {
-      const std::optional<int> lamp = lamp_in(wall.cell);
-      return lamp ? Surface{lamp_name(*lamp), materials.lamp}
-                  : Surface{storey + "ceiling", materials.whitewash};
-    }
-    return place == Place::between_pillars && layer == kUpperStorey
-               ? Surface{storey + "parapets", materials.stone}
-               : Surface{storey + "floor", materials.tiles};
+  const std::string storey = storey_of(wall.cell[1]);
+  if (place == Place::court)
+    return wall.faces_up ? Surface{"court", materials.paving} : Surface{"sky", materials.canopy};
+  if (!wall.faces_up) {
+    const std::optional<int> lamp = lamp_in(wall.cell);
+    return lamp ? Surface{lamp_name(*lamp), materials.lamp}
+                : Surface{storey + "ceiling", materials.whitewash};
   }
-  if (layer == kUpperSlab || layer == kRoof) return {storey + "lintels", materials.stone};
+  if (place == Place::between_pillars && wall.cell[1] == kUpperStorey)
+    return {storey + "parapets", materials.whitewash};
+  return {storey + "floor", materials.tiles};
+}
+
+/// What stands upright, by the solid behind it.
+Surface upright_surface(const RectilinearWall& wall, const PatioMaterials& materials) {
+  const std::string storey = storey_of(wall.cell[1]);
+  if (wall.cell[1] == kUpperSlab || wall.cell[1] == kRoof) return {storey + "lintels", materials.stone};
   RectilinearSpace::Cell behind = wall.cell;
   behind[static_cast<std::size_t>(wall.axis)] += wall.faces_up ? -1 : 1;
   const Place solid = place_of(behind);
   if (solid == Place::pillar) return {storey + "pillars", materials.stone};
-  if (solid == Place::between_pillars) return {storey + "parapets", materials.stone};
+  if (solid == Place::between_pillars) return {storey + "parapets", materials.whitewash};
   return {storey + "walls", materials.plaster};
 }
 
@@ -128,14 +135,15 @@ Scene make_patio(Spec& spec) {
   const PatioMaterials materials(builder);
   for (int lamp = 1; lamp <= kLamps; ++lamp) builder.group(lamp_name(lamp));  // so they are listed in order
   for (const RectilinearWall& wall : walls_of(patio_space())) {
-    const Surface surface = surface_of(wall, materials);
+    const Surface surface =
+        wall.axis == 1 ? level_surface(wall, materials) : upright_surface(wall, materials);
     if (open && surface.group == "sky") continue;
     builder.face(wall.corners, surface.material, builder.group(surface.group));
   }
   Scene scene = std::move(builder.scene());
   scene.contacts = Contacts::never;
   scene.conforming = true;
-  scene.camera = Camera{{4.2, 6.6, 11.6}, {9.6, 3.4, 4.6}, Vector3::UnitY(), 75.0};
+  scene.camera = Camera{{3.7, 3.4, 11.8}, {9.4, 3.9, 5.2}, Vector3::UnitY(), 78.0};
   return scene;
 }
 
