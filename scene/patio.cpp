@@ -10,8 +10,9 @@
 namespace radiosity {
 namespace {
 
-// Metres, all of them multiples of 1/4: with the court open the surfaces measure 1508 m^2, which is 24128
-// squares of that side (document 004, figure 4).
+// Document 004 (figure 4) tells of its patio that it has two floors and 24128 patches; the measures are ours.
+// Metres, all of them multiples of 1/4: with the court open the surfaces are 1508 m^2, which is 24128 squares
+// of that side.
 constexpr double kPillar = 0.75;   // square; also how thick the parapets are
 constexpr double kBay = 2.5;       // between two pillars
 constexpr double kGallery = 2.5;   // between the pillars and the walls
