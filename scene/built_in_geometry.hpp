@@ -35,6 +35,14 @@ Scene make_l_room(Spec& spec);
 /// and box1, box2, ...; reflectance= is that of all other surfaces. Watertight.
 Scene make_clutter(Spec& spec);
 
+/// Two storeys of galleries around a square court (document 004, figure 4): 15.5 x 8.75 x 15.5, on each side
+/// of the court three bays between square pillars, and parapets above. Groups: court, and of ground/ and
+/// upper/ the floor, ceiling, walls, pillars and lintels (what carries the floor or roof above, seen from the
+/// court), upper/parapets, and lamp1 to lamp16 in the ceilings of the galleries, which emit (1 to 8 on the
+/// ground, two a side). All lengths are multiples of 1/4 and the area is 1508 m^2: 24128 patches are squares
+/// of that side. The sky is open; sky=closed spans a canopy over the court (group sky), and it is watertight.
+Scene make_patio(Spec& spec);
+
 /// The inside of a unit sphere as 2 rings^2 facets in rings (3 to 64) of trapezoids, the corners on the
 /// sphere, where F_ij = A_j / A (hard case E2; the facets come near with 1 / rings^2); the upper quarter of
 /// the rings is the group light, the rest wall. Watertight.

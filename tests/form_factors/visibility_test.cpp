@@ -94,6 +94,44 @@ TEST(Visibility, BlocksInARoomKeepRowSumsAndReciprocity) {
   EXPECT_LE((exchange - exchange.transpose()).cwiseAbs().maxCoeff(), 1e-12 * exchange.maxCoeff());
 }
 
+FormFactors form_factors_of_patio(const Scene& scene) {
+  return compute(std::make_shared<const PatchMesh>(make_patches(scene, {.patches = 600})), raw(1e-3));
+}
+
+/// Patches of a storey with their centres between two planes normal to z.
+std::vector<Index> part_of_patio(const PatchMesh& mesh, const std::string& storey, double low, double high) {
+  std::vector<Index> found;
+  for (Index i = 0; i < mesh.patch_count(); ++i) {
+    const auto group = static_cast<std::size_t>(mesh.patches[static_cast<std::size_t>(i)].group);
+    const double z = mesh.centroid(2, i);
+    if (room_of_group(mesh.scene->groups[group]) == storey && z > low && z < high) found.push_back(i);
+  }
+  return found;
+}
+
+TEST(Visibility, StoreysOfAPatioSeeEachOtherAcrossTheCourtOnly) {
+  const FormFactors form_factors = form_factors_of_patio(built_in_scene("patio:sky=closed"));
+  EXPECT_EQ(form_factors.quality.leaks, 0U);
+  EXPECT_EQ(form_factors.quality.reciprocity_max, 0);
+  EXPECT_LE(form_factors.quality.row_sum_rms, 1e-2);
+  const std::vector<Index> upper = part_of_patio(*form_factors.mesh, "upper", 0, 2.5);
+  const Eigen::MatrixXd F = form_factors.matrix();
+  EXPECT_EQ(F(upper, part_of_patio(*form_factors.mesh, "ground", 0, 2.5)).maxCoeff(), 0);
+  EXPECT_GT(F(upper, part_of_patio(*form_factors.mesh, "ground", 13, 15.5)).sum(), 0.01);
+}
+
+// The check above can fail: without the slab, light goes from storey to storey within a gallery.
+TEST(Visibility, StoreysOfAPatioWithoutASlabSeeEachOther) {
+  Scene scene = built_in_scene("patio:sky=closed");
+  std::erase_if(scene.faces, [&](const Face& face) {
+    const std::string& group = scene.groups[static_cast<std::size_t>(face.group)];
+    return group == "upper/floor" || group == "ground/ceiling" || group.starts_with("lamp");
+  });
+  const FormFactors form_factors = form_factors_of_patio(scene);
+  const std::vector<Index> upper = part_of_patio(*form_factors.mesh, "upper", 0, 2.5);
+  EXPECT_GT(form_factors.matrix()(upper, part_of_patio(*form_factors.mesh, "ground", 0, 2.5)).sum(), 0.1);
+}
+
 // R3: float32 rays among faces of 1e-6 to 1e6 m^2. Rays that stood off every face alike, or started at the
 // larger of two patches, missed up to a third of the light of the smallest ones.
 TEST(Visibility, FacesOfVeryUnequalSizeSeeEachOther) {

@@ -207,6 +207,7 @@ TEST(BuiltInScenes, RefuseValuesOutOfRange) {
                            "clutter:boxes=101",
                            "clutter:seed=-1",
                            "clutter:reflectance=-0.1",
+                           "patio:sky=blue",
                            "sphere-cavity:rings=2",
                            "bowl:beta=0",
                            "bowl:beta=180",
