@@ -3,6 +3,7 @@
 #include "factorizations/lapack.hpp"
 #include "foundation/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace radiosity {
@@ -34,15 +35,22 @@ Eigen::VectorXd weights_of_lights(const PatchMesh& mesh, const SolvedLights& lig
   return weights;
 }
 
-/// Left singular vectors, the leading ones first, as eigenvectors of X X': directions whose singular value is
-/// below 1e-8 of the largest are lost in rounding, which is far below the errors that are drawn beside them.
+/// Left singular vectors, the leading ones first. Of a wide X as eigenvectors of X X': directions whose
+/// singular value is below 1e-8 of the largest are lost in rounding, far below the errors that are drawn.
 Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& X) {
+  if (X.cols() <= X.rows()) return singular_value_decomposition(X).U;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(X.rows(), X.rows());
   gram.selfadjointView<Eigen::Lower>().rankUpdate(X);
   return symmetric_eigenpairs(std::move(gram)).vectors.rowwise().reverse();
 }
 
 }  // namespace
+
+SolvedLights SolvedLights::part(const PatchMesh& mesh, Index first, Index count) const {
+  const Index channels = mesh.channels();
+  return {emission.middleCols(first * channels, count * channels),
+          radiosity.middleCols(first * channels, count * channels)};
+}
 
 BestRank::BestRank(const PatchMesh& mesh, const SolvedLights& lights, const Eigen::VectorXd& probability)
     : root_area_(mesh.area.cwiseSqrt()) {
@@ -62,7 +70,8 @@ Field BestRank::radiosity(Index k, const SolvedLights& lights) const {
   const auto channels = static_cast<Index>(directions_.size());
   Field nearest = lights.emission;
   for (Index channel = 0; channel < channels; ++channel) {
-    const auto leading = directions_[static_cast<std::size_t>(channel)].leftCols(k);
+    const Eigen::MatrixXd& directions = directions_[static_cast<std::size_t>(channel)];
+    const auto leading = directions.leftCols(std::min(k, directions.cols()));
     const Eigen::MatrixXd projected =
         leading * (leading.transpose() * indirect_light(lights, root_area_, channel, channels)).eval();
     for (Index light = 0; light < projected.cols(); ++light)

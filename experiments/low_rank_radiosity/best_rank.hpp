@@ -15,6 +15,8 @@ struct SolvedLights {
   Field radiosity;
 
   Index count(const PatchMesh& mesh) const { return emission.cols() / mesh.channels(); }
+  /// Lights first ... first + count - 1.
+  SolvedLights part(const PatchMesh& mesh, Index first, Index count) const;
 };
 
 /// The least error that B = E + X Y' E can have with X and Y of n x k, one pair a channel, over a
@@ -26,16 +28,18 @@ struct SolvedLights {
 class BestRank {
  public:
   /// The distribution: `probability` of each light of `lights`, at least 0, one a light. C has no part but
-  /// theirs; leading directions beyond its rank are arbitrary. Throws UsageError where sizes differ.
+  /// theirs: with fewer lights than k the best of rank k is that of their number. Throws UsageError where
+  /// sizes differ.
   BestRank(const PatchMesh& mesh, const SolvedLights& lights, const Eigen::VectorXd& probability);
 
   /// The B of rank k <= n nearest to the true one for these lights: E plus the projection of B - E on the
-  /// first k singular vectors of each channel, n x (lights * channels).
+  /// first k singular vectors of each channel (all there are, if fewer), n x (lights * channels).
   Field radiosity(Index k, const SolvedLights& lights) const;
 
  private:
   Eigen::VectorXd root_area_;
-  std::vector<Eigen::MatrixXd> directions_;  ///< one a channel, n x n, orthonormal, the leading ones first
+  std::vector<Eigen::MatrixXd>
+      directions_;  ///< one a channel, n x min(n, lights), orthonormal, the leading ones first
 };
 
 }  // namespace radiosity

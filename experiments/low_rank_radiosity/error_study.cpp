@@ -2,6 +2,7 @@
 
 #include "experiments/low_rank_radiosity/error_study_measures.hpp"
 #include "experiments/low_rank_radiosity/error_study_spectrum.hpp"
+#include "experiments/reference_solution.hpp"
 #include "foundation/error.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "scene/built_in.hpp"
@@ -74,42 +75,88 @@ StudiedProblem make_problem(const StudiedScene& scene, std::optional<double> ref
   return made;
 }
 
-/// The training lights, and after them each patch as a light if the study has patch lights; every kind is as
-/// probable as it is among the lights of the study, and every light of a kind as the next.
-std::pair<Field, Eigen::VectorXd> training_distribution(const PatchMesh& mesh,
-                                                        const ErrorStudyOptions& options, Monitor& monitor) {
-  LightCounts counts = options.training;
-  counts.patch = 0;
-  const LightSet drawn = draw_lights(mesh, counts, options.seed + training_seed_offset, monitor);
-  const Index n = mesh.patch_count();
-  const Index patch_lights = options.lights.patch > 0 ? n : 0;
-  Field emission = Field::Zero(n, (counts.total() + patch_lights) * mesh.channels());
+/// Lights one after the other: area lights, points, and each patch if the study has patch lights.
+struct TrainingLights {
+  SolvedLights lights;
+  LightCounts counts;
+};
+
+TrainingLights training_lights(const StudiedScene& scene, const PatchMesh& mesh,
+                               const ErrorStudyOptions& options, Monitor& monitor) {
+  TrainingLights training;
+  training.counts = options.training;
+  training.counts.patch = 0;
+  const LightSet drawn = draw_lights(mesh, training.counts, options.seed + training_seed_offset, monitor);
+  const Index drawn_count = training.counts.total();
+  training.counts.patch = options.lights.patch > 0 ? mesh.patch_count() : 0;
+  Field emission = Field::Zero(mesh.patch_count(), training.counts.total() * mesh.channels());
   emission.leftCols(drawn.emission.cols()) = drawn.emission;
-  for (Index patch = 0; patch < patch_lights; ++patch)
-    emission.block(patch, (counts.total() + patch) * mesh.channels(), 1, mesh.channels()).setOnes();
-  Eigen::VectorXd probability(counts.total() + patch_lights);
-  const auto share = [&](Index of_kind, Index count) {
-    return Eigen::VectorXd::Constant(
-        count, static_cast<double>(of_kind) /
-                   static_cast<double>(std::max<Index>(count, 1) * options.lights.total()));
-  };
-  probability << share(options.lights.area, counts.area), share(options.lights.point, counts.point),
-      share(options.lights.patch, patch_lights);
-  return {std::move(emission), std::move(probability)};
+  for (Index patch = 0; patch < training.counts.patch; ++patch)
+    emission.block(patch, (drawn_count + patch) * mesh.channels(), 1, mesh.channels()).setOnes();
+  training.lights.radiosity = solve_densely(scene.kernel, mesh, emission);
+  training.lights.emission = std::move(emission);
+  return training;
+}
+
+std::array<Index, 3> by_kind(const LightCounts& counts) {
+  return {counts.area, counts.point, counts.patch};
+}
+
+/// Every kind as probable as it is among the lights of the study, every light of a kind as the next.
+Eigen::VectorXd probabilities(const LightCounts& training, const LightCounts& lights) {
+  Eigen::VectorXd probability(training.total());
+  Index first = 0;
+  for (std::size_t kind = 0; kind < by_kind(training).size(); ++kind) {
+    const Index count = by_kind(training)[kind];
+    probability.segment(first, count)
+        .setConstant(static_cast<double>(by_kind(lights)[kind]) /
+                     static_cast<double>(std::max<Index>(count, 1) * lights.total()));
+    first += count;
+  }
+  return probability;
+}
+
+/// BestRankError::alone at every rank.
+void measure_bounds_alone(const StudiedProblem& studied, const TrainingLights& training,
+                          const LightCounts& counts, const std::vector<BestRankError*>& bounds) {
+  const PatchMesh& mesh = studied.mesh();
+  const SolvedLights solved = {studied.lights.emission, studied.radiosity};
+  Index trained = 0;
+  Index measured = 0;
+  for (std::size_t kind = 0; kind < by_kind(counts).size(); ++kind) {
+    const Index training_count = by_kind(training.counts)[kind];
+    const Index count = by_kind(counts)[kind];
+    if (training_count > 0 && count > 0) {
+      const BestRank best(mesh, training.lights.part(mesh, trained, training_count),
+                          Eigen::VectorXd::Constant(training_count, 1 / static_cast<double>(training_count)));
+      const SolvedLights lights = solved.part(mesh, measured, count);
+      for (BestRankError* bound : bounds)
+        bound->alone[kind] =
+            mean_of(relative_errors(mesh, best.radiosity(bound->rank, lights), lights.radiosity));
+    }
+    trained += training_count;
+    measured += count;
+  }
 }
 
 void measure_bounds(const StudiedScene& scene, const StudiedProblem& studied,
                     const ErrorStudyOptions& options, const std::set<Index>& ranks, Monitor& monitor,
                     ErrorStudy& study) {
   monitor.checkpoint("best of rank k on " + scene.name, 0);
-  auto [emission, probability] = training_distribution(studied.mesh(), options, monitor);
-  Field radiosity = solve_densely(scene.kernel, studied.mesh(), emission);
-  const BestRank best(studied.mesh(), {std::move(emission), std::move(radiosity)}, probability);
+  const TrainingLights training = training_lights(scene, studied.mesh(), options, monitor);
+  const BestRank best(studied.mesh(), training.lights, probabilities(training.counts, options.lights));
+  const std::size_t first = study.bounds.size();
   for (const Index rank : ranks)
-    study.bounds.push_back(
-        {studied.problem, rank,
-         light_errors(studied.mesh(), studied.lights, studied.radiosity,
-                      best.radiosity(rank, {studied.lights.emission, studied.radiosity}))});
+    study.bounds.push_back({studied.problem,
+                            rank,
+                            light_errors(studied.mesh(), studied.lights, studied.radiosity,
+                                         best.radiosity(rank, {studied.lights.emission, studied.radiosity})),
+                            {}});
+  std::vector<BestRankError*> bounds;
+  bounds.reserve(ranks.size());
+  for (std::size_t bound = first; bound < study.bounds.size(); ++bound)
+    bounds.push_back(&study.bounds[bound]);
+  measure_bounds_alone(studied, training, options.lights, bounds);
 }
 
 /// Solves with the approximation by Woodbury's formula.

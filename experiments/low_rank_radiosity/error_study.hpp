@@ -37,8 +37,8 @@ struct ErrorStudyOptions {
   Index patches = 800;
   std::vector<std::optional<double>> reflectances = {std::nullopt, 0.9};  ///< empty: the scene's own colours
   Index smallest_rank = 8;
-  double rank_step = 3;                                      ///< ranks grow by this factor up to n/4
-  LightCounts lights = {.area = 4, .point = 4, .patch = 4};  ///< what errors are measured with
+  double rank_step = 3;                                         ///< ranks grow by this factor up to n/4
+  LightCounts lights = {.area = 12, .point = 12, .patch = 12};  ///< what errors are measured with
   LightCounts training = {.area = 48, .point = 48};  ///< for the bound; all patches serve as patch lights
   std::vector<LowRankFactorization> factorizations = studied_factorizations();
   std::uint64_t seed = 1;
@@ -82,7 +82,9 @@ struct LowRankError {
 struct BestRankError {
   ErrorStudyProblem problem;
   Index rank = 0;
-  LightErrors errors;
+  LightErrors errors;  ///< of the best operator for all kinds of lights together
+  /// Mean error in B of area, point and patch lights, of the best operators for lights of that kind alone.
+  std::array<std::optional<double>, 3> alone;
 };
 
 /// Where the shelf of the spectrum comes from, for the kernel K of one scene.

@@ -6,13 +6,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace radiosity {
 namespace {
 
 using Findings = std::vector<ProblemFindings>;
+
+constexpr std::array<const char*, 3> kinds = {"area lights", "point lights", "single patches"};
+
+/// Lowest and highest of a value of one factorization over the problems.
+struct Range {
+  std::optional<double> low;
+  std::optional<double> high;
+
+  void include(std::optional<double> value) {
+    if (!value) return;
+    low = low ? std::min(*low, *value) : *value;
+    high = high ? std::max(*high, *value) : *value;
+  }
+  std::string text(const char* format) const {
+    return low ? fmt::format("{} to {}", fmt::format(fmt::runtime(format), *low),
+                             fmt::format(fmt::runtime(format), *high))
+               : "not fitted";
+  }
+};
 
 template <typename Number, typename Value>
 Number sum_over(const Findings& findings, const Value& value) {
@@ -70,44 +91,47 @@ std::string winners_answer(const Findings& findings) {
       wins_text(findings, &ProblemFindings::at_equal_bytes));
 }
 
-/// Lowest and highest of a value of one factorization over the problems.
-struct Range {
-  std::optional<double> low;
-  std::optional<double> high;
-
-  void include(std::optional<double> value) {
-    if (!value) return;
-    low = low ? std::min(*low, *value) : *value;
-    high = high ? std::max(*high, *value) : *value;
-  }
-  std::string text(const char* format) const {
-    return low ? fmt::format("{} to {}", fmt::format(fmt::runtime(format), *low),
-                             fmt::format(fmt::runtime(format), *high))
-               : "not fitted";
-  }
-};
-
 std::string decay_answer(const Findings& findings) {
-  std::map<std::string, std::array<Range, 3>> ranges;
-  for (const ProblemFindings& one : findings)
-    for (const ErrorDecay& decay : one.decays) {
-      auto& [over_rank, over_error, below] = ranges[decay.factorization];
-      over_rank.include(decay.over_rank);
-      over_error.include(decay.over_operator_error);
-      below.include(decay.below_operator_error);
-    }
-  std::string text =
-      "How the error in T relates to the error in B: exponents of the mean error in B over k and over the "
-      "error in T, fitted, and how many times the error in B lies below the error in T at the largest k, "
-      "over all problems.";
-  for (const auto& [name, range] : ranges)
-    text += fmt::format(" {}: {}; {}; {} times.", name, range[0].text("{:.2f}"), range[1].text("{:.2f}"),
-                        range[2].text("{:.2g}"));
+  std::string text = "How the error in T relates to the error in B, over all problems:";
+  for (const char* name : {plain_svd, uniform_two_mesh}) {
+    Range power;
+    Range below;
+    for (const ProblemFindings& one : findings)
+      for (const ErrorDecay& decay : one.decays) {
+        if (decay.factorization != name) continue;
+        power.include(decay.over_operator_error);
+        below.include(decay.below_operator_error);
+      }
+    text += fmt::format(
+        "{} of {} the mean error in B falls as the error in T to the power {}, and is at the largest k {} "
+        "times below it",
+        name == plain_svd ? "" : ";", name, power.text("{:.2f}"), below.text("{:.2g}"));
+  }
+  return text + ".";
+}
+
+/// "1.2 to 3 for area lights, ..."
+std::string over_alone_text(const Findings& findings, std::array<double, 3> ProblemFindings::*ratios) {
+  std::string text;
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    Range range;
+    for (const ProblemFindings& one : findings)
+      if ((one.*ratios)[kind] > 0) range.include((one.*ratios)[kind]);
+    text += fmt::format("{}{} for {}", text.empty() ? "" : ", ", range.text("{:.2g}"), kinds[kind]);
+  }
   return text;
 }
 
+std::string alone_answer(const Findings& findings) {
+  return fmt::format(
+      "What a choice of lights gains: at the largest k the mean error in B, over that of the best operator "
+      "of "
+      "the same rank for lights of one kind alone, is with SVD {}; with uniform 2MSC {}.",
+      over_alone_text(findings, &ProblemFindings::svd_over_alone),
+      over_alone_text(findings, &ProblemFindings::two_mesh_over_alone));
+}
+
 std::string two_mesh_answer(const Findings& findings) {
-  constexpr std::array<const char*, 3> kinds = {"area lights", "point lights", "single patches"};
   const Index ranks = sum_over<Index>(findings, [](const auto& one) { return one.ranks; });
   std::string text = "Where 2MSC wins and loses against SVD at equal k:";
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
@@ -143,7 +167,8 @@ std::string spectrum_answer(const SpectrumStudy& spectrum) {
 std::vector<std::string> answers(const ErrorStudy& study) {
   const Findings findings = find_in_study(study);
   std::vector<std::string> texts = {optimality_answer(findings), winners_answer(findings),
-                                    two_mesh_answer(findings), decay_answer(findings)};
+                                    two_mesh_answer(findings), alone_answer(findings),
+                                    decay_answer(findings)};
   for (const SpectrumStudy& spectrum : study.spectra) texts.push_back(spectrum_answer(spectrum));
   Index refused = 0;
   for (const LowRankError& row : study.factorizations) refused += row.errors ? 0 : 1;

@@ -37,7 +37,12 @@ Json row_json(const LowRankError& row) {
 
 Json bound_json(const BestRankError& bound) {
   Json json = problem_json(bound.problem);
-  json.update({{"rank", bound.rank}, {"errors", light_errors_json(bound.errors)}});
+  json.update({{"rank", bound.rank},
+               {"errors", light_errors_json(bound.errors)},
+               {"alone",
+                {{"area_lights", or_null(bound.alone[0])},
+                 {"point_lights", or_null(bound.alone[1])},
+                 {"patch_lights", or_null(bound.alone[2])}}}});
   return json;
 }
 

@@ -116,6 +116,19 @@ void compare_with_bound(const ErrorStudy& study, const LowRankError& svd, Proble
   findings.svd_over_best_high = std::max(findings.svd_over_best_high, ratio);
 }
 
+/// Ratios to the bounds for one kind of light alone.
+std::array<double, 3> over_alone(const ErrorStudy& study, const RankedRows& rows) {
+  std::array<double, 3> ratios{};
+  const BestRankError* bound = rows.empty() ? nullptr : study.bound(rows.back()->problem, rows.back()->rank);
+  if (bound == nullptr) return ratios;
+  for (std::size_t kind = 0; kind < ratios.size(); ++kind) {
+    const auto& error = rows.back()->errors->of_kind[kind];
+    const auto& least = bound->alone[kind];
+    if (error && least && *least > 0) ratios[kind] = *error / *least;
+  }
+  return ratios;
+}
+
 void compare_two_mesh(const LowRankError& two_mesh, const LowRankError& svd, ProblemFindings& findings) {
   for (std::size_t kind = 0; kind < findings.two_mesh_wins.size(); ++kind) {
     const auto& of_two_mesh = two_mesh.errors->of_kind[kind];
@@ -141,6 +154,8 @@ ProblemFindings findings_of(const ErrorStudy& study, const ErrorStudyProblem& pr
   findings.at_equal_rank = least_at_equal_rank(rows);
   findings.at_equal_bytes = least_at_equal_bytes(rows, svd);
   for (const auto& [name, ranked] : rows) findings.decays.push_back(decay_of(name, ranked));
+  findings.svd_over_alone = over_alone(study, svd);
+  findings.two_mesh_over_alone = over_alone(study, uniform);
   findings.ranks = static_cast<Index>(svd.size());
   for (const LowRankError* row : svd) {
     compare_with_svd(rows, *row, findings);

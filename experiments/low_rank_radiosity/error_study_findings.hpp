@@ -45,7 +45,11 @@ struct ProblemFindings {
   std::array<Index, 3> two_mesh_wins{};    ///< values of k at which uniform 2MSC has a smaller error than
                                            ///< SVD, of area, point and patch lights
   std::array<double, 3> two_mesh_ratio{};  ///< error of uniform 2MSC / SVD at the largest k, the same
-  Index adaptive_wins = 0;                 ///< values of k at which adaptive 2MSC beats uniform 2MSC
+  /// Mean error in B at the largest k over that of the best of the same rank for such lights alone: of SVD
+  /// and of uniform 2MSC, by kind of light; 0 where there is none.
+  std::array<double, 3> svd_over_alone{};
+  std::array<double, 3> two_mesh_over_alone{};
+  Index adaptive_wins = 0;  ///< values of k at which adaptive 2MSC beats uniform 2MSC
 };
 
 std::vector<ProblemFindings> find_in_study(const ErrorStudy& study);

@@ -12,12 +12,6 @@
 namespace radiosity {
 namespace {
 
-double mean_of(const std::vector<double>& values) {
-  return values.empty()
-             ? 0
-             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 /// Mean over the lights of each kind; empty for kinds that the set lacks.
 std::array<std::optional<double>, 3> means_of_kinds(const LightSet& set, const std::vector<double>& errors) {
   std::array<std::optional<double>, 3> means;
@@ -31,6 +25,12 @@ std::array<std::optional<double>, 3> means_of_kinds(const LightSet& set, const s
 }
 
 }  // namespace
+
+double mean_of(const std::vector<double>& values) {
+  return values.empty()
+             ? 0
+             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 LowRankParts LowRankParts::leading(Index k) const {
   const Index rank = std::min(k, U.cols());

@@ -8,7 +8,8 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <memory>
+#include <string>
+#include <vector>
 
 namespace radiosity {
 
@@ -39,6 +40,9 @@ double relative_operator_error(const Eigen::MatrixXd& reflectance, const Eigen::
 
 /// B = E + T B by LU of I - R K, channel by channel.
 Field solve_densely(const Eigen::MatrixXd& kernel, const PatchMesh& mesh, const Field& emission);
+
+/// 0 of no values.
+double mean_of(const std::vector<double>& values);
 
 /// Errors of `approximation` for `lights`, whose kinds are in `set`.
 LightErrors light_errors(const PatchMesh& mesh, const LightSet& set, const Field& radiosity,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -69,25 +70,34 @@ ReportTable error_table(const ErrorStudy& study, const ErrorStudyProblem& proble
 
 using Coordinate = std::function<double(const LowRankError&)>;
 
-/// A line for each factorization: mean error in B over `x`.
+double rank_of(const LowRankError& row) {
+  return static_cast<double>(row.rank);
+}
+
+double mean_error_of(const LowRankError& row) {
+  return row.errors->radiosity_mean;
+}
+
+/// A line for each factorization.
 std::vector<PlotSeries> error_series(const ErrorStudy& study, const ErrorStudyProblem& problem,
-                                     const Coordinate& x) {
+                                     const Coordinate& x, const Coordinate& y = mean_error_of) {
   std::vector<PlotSeries> all;
   for (const LowRankError& row : study.factorizations) {
-    if (row.problem != problem || !row.errors || row.errors->radiosity_mean <= 0 || x(row) <= 0) continue;
+    if (row.problem != problem || !row.errors || x(row) <= 0 || y(row) <= 0) continue;
     auto series = std::find_if(all.begin(), all.end(),
                                [&](const PlotSeries& known) { return known.name == row.factorization; });
     if (series == all.end()) series = all.insert(series, {row.factorization, {}});
-    series->points.push_back({x(row), row.errors->radiosity_mean, 0, ""});
+    series->points.push_back({x(row), y(row), 0, ""});
   }
   return all;
 }
 
-PlotSeries bound_series(const ErrorStudy& study, const ErrorStudyProblem& problem) {
+PlotSeries bound_series(const ErrorStudy& study, const ErrorStudyProblem& problem,
+                        const std::function<double(const BestRankError&)>& error) {
   PlotSeries series{best_name, {}};
   for (const BestRankError& bound : study.bounds)
-    if (bound.problem == problem && bound.errors.radiosity_mean > 0)
-      series.points.push_back({static_cast<double>(bound.rank), bound.errors.radiosity_mean, 0, ""});
+    if (bound.problem == problem && error(bound) > 0)
+      series.points.push_back({static_cast<double>(bound.rank), error(bound), 0, ""});
   return series;
 }
 
@@ -102,9 +112,9 @@ PlotPanel error_panel(const std::string& title, const std::string& x_label, std:
 
 ReportFigure error_figure(const ErrorStudy& study, const ErrorStudyProblem& problem,
                           const std::string& command) {
-  std::vector<PlotSeries> over_rank =
-      error_series(study, problem, [](const LowRankError& row) { return static_cast<double>(row.rank); });
-  over_rank.push_back(bound_series(study, problem));
+  std::vector<PlotSeries> over_rank = error_series(study, problem, rank_of);
+  over_rank.push_back(
+      bound_series(study, problem, [](const BestRankError& bound) { return bound.errors.radiosity_mean; }));
   Plot plot;
   plot.title = problem.text();
   plot.panels = {
@@ -116,17 +126,41 @@ ReportFigure error_figure(const ErrorStudy& study, const ErrorStudyProblem& prob
   plot.panel_width = panel_width;
   plot.panel_height = panel_height;
   return {
-      "Each point is one k. Left: nothing of rank k lies below the line of the best, on the mean over "
-      "lights like these.",
+      "Each point is one k. The best of rank k was found with other lights of the same kinds: averaged over "
+      "all such lights nothing of rank k has a smaller root mean square error; these are a sample.",
       command, to_svg(plot)};
 }
 
+/// Error in B over rank for lights of one kind, beside the best operator for such lights alone.
+ReportFigure kinds_figure(const ErrorStudy& study, const ErrorStudyProblem& problem,
+                          const std::string& command) {
+  constexpr std::array<const char*, 3> titles = {"Area lights", "Point lights", "Single patches"};
+  Plot plot;
+  plot.title = problem.text();
+  plot.panel_width = panel_width;
+  plot.panel_height = panel_height;
+  for (std::size_t kind = 0; kind < titles.size(); ++kind) {
+    std::vector<PlotSeries> lines = error_series(study, problem, rank_of, [kind](const LowRankError& row) {
+      return row.errors->of_kind[kind].value_or(0);
+    });
+    if (lines.empty()) continue;
+    lines.push_back(bound_series(
+        study, problem, [kind](const BestRankError& bound) { return bound.alone[kind].value_or(0); }));
+    plot.panels.push_back(error_panel(titles[kind], "rank", std::move(lines)));
+  }
+  return {"The same by kind of light; the best of rank k is here that for lights of this kind alone.",
+          command, to_svg(plot)};
+}
+
+/// The values at numbers that grow by a factor, as a logarithmic axis spreads them.
 PlotSeries spectrum_series(const std::string& name, const std::vector<double>& values) {
   constexpr double below_interest = 1e-8;
+  constexpr double growth = 1.08;
   PlotSeries series{name, {}};
   series.markers = false;
-  for (std::size_t k = 0; k < values.size() && values[k] > below_interest; ++k)
-    series.points.push_back({static_cast<double>(k + 1), values[k], 0, ""});
+  for (std::size_t number = 1; number <= values.size() && values[number - 1] > below_interest;
+       number = std::max(number + 1, static_cast<std::size_t>(growth * static_cast<double>(number))))
+    series.points.push_back({static_cast<double>(number), values[number - 1], 0, ""});
   return series;
 }
 
@@ -153,21 +187,15 @@ std::string fitted(const std::optional<double>& exponent) {
   return exponent ? fmt::format("{:.2f}", *exponent) : "–";
 }
 
-const ErrorDecay* decay_named(const ProblemFindings& findings, const char* name) {
-  const auto found = std::find_if(findings.decays.begin(), findings.decays.end(),
-                                  [&](const ErrorDecay& decay) { return decay.factorization == name; });
-  return found == findings.decays.end() ? nullptr : &*found;
-}
-
 ReportTable findings_table(const std::vector<ProblemFindings>& findings, const std::string& command) {
   ReportTable table;
   table.caption =
       "Problem by problem: at how many k SVD is beaten in B by a factorization of no larger rank, and by "
-      "whom; its rms error over the best of rank k; the exponent of the error in B over the error in T; the "
-      "error in T over the error in B at the largest k.";
+      "whom; its rms error over the best of rank k; its mean error at the largest k over that of the best of "
+      "rank k for one kind of light alone.";
   table.command = command;
-  table.columns = {"problem",   "SVD beaten",    "strongest rival", "gain",          "SVD over best",
-                   "SVD power", "SVD T above B", "2MSC power",      "2MSC T above B"};
+  table.columns = {"problem",       "SVD beaten",    "strongest rival", "gain",
+                   "SVD over best", "of area alone", "of point alone",  "of patch alone"};
   for (const ProblemFindings& one : findings) {
     std::vector<std::string> row = {
         one.problem.text(), fmt::format("{} of {}", one.svd_beaten_in_B, one.ranks),
@@ -176,13 +204,26 @@ ReportTable findings_table(const std::vector<ProblemFindings>& findings, const s
             : "–",
         fmt::format("{:.2f}", one.largest_gain),
         fmt::format("{:.2g} … {:.2g}", one.svd_over_best_low, one.svd_over_best_high)};
-    for (const char* name : {plain_svd, uniform_two_mesh}) {
-      const ErrorDecay* decay = decay_named(one, name);
-      append(row, {decay == nullptr ? "–" : fitted(decay->over_operator_error),
-                   decay == nullptr ? "–" : fmt::format("{:.3g}", decay->below_operator_error)});
-    }
+    for (const double ratio : one.svd_over_alone) row.push_back(fmt::format("{:.2g}", ratio));
     table.rows.push_back(std::move(row));
   }
+  return table;
+}
+
+/// Exponents of every factorization on every problem.
+ReportTable decay_table(const std::vector<ProblemFindings>& findings, const std::string& command) {
+  ReportTable table;
+  table.caption =
+      "How the mean error in B falls: exponents fitted over all k, and the error in T over the error in B at "
+      "the largest k.";
+  table.command = command;
+  table.columns = {"problem", "factorization", "over k", "over error in T", "error in T above B"};
+  table.text_columns = 2;
+  for (const ProblemFindings& one : findings)
+    for (const ErrorDecay& decay : one.decays)
+      table.rows.push_back({one.problem.text(), decay.factorization, fitted(decay.over_rank),
+                            fitted(decay.over_operator_error),
+                            fmt::format("{:.3g}", decay.below_operator_error)});
   return table;
 }
 
@@ -191,10 +232,13 @@ ReportTable findings_table(const std::vector<ProblemFindings>& findings, const s
 ReportSection error_study_section(const ErrorStudy& study, const std::string& command) {
   ReportSection section{"Low rank: the error in T and the error in B", {}};
   for (const std::string& answer : answers(study)) section.blocks.emplace_back(ReportText{answer});
-  section.blocks.emplace_back(findings_table(find_in_study(study), command));
+  const std::vector<ProblemFindings> findings = find_in_study(study);
+  section.blocks.emplace_back(findings_table(findings, command));
+  section.blocks.emplace_back(decay_table(findings, command));
   section.blocks.emplace_back(spectrum_figure(study, command));
   for (const ErrorStudyProblem& problem : study.problems()) {
     section.blocks.emplace_back(error_figure(study, problem, command));
+    section.blocks.emplace_back(kinds_figure(study, problem, command));
     section.blocks.emplace_back(error_table(study, problem, command));
   }
   return section;
