@@ -38,7 +38,7 @@ Eigen::VectorXd weights_of_lights(const PatchMesh& mesh, const SolvedLights& lig
 /// Left singular vectors, the leading ones first. Of a wide X as eigenvectors of X X': directions whose
 /// singular value is below 1e-8 of the largest are lost in rounding, far below the errors that are drawn.
 Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& X) {
-  if (X.cols() <= X.rows()) return singular_value_decomposition(X).U;
+  if (X.cols() < X.rows()) return singular_value_decomposition(X).U;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(X.rows(), X.rows());
   gram.selfadjointView<Eigen::Lower>().rankUpdate(X);
   return symmetric_eigenpairs(std::move(gram)).vectors.rowwise().reverse();

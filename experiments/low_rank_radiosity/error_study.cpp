@@ -22,6 +22,7 @@ namespace {
 
 /// Lights of the training set come from seeds that no light of the study has.
 constexpr std::uint64_t training_seed_offset = 1000003;
+constexpr double diagonal_share = 0.01;
 constexpr int radius_products = 20;
 /// Of Woodbury's answer in double precision: far below every error that is measured.
 constexpr double woodbury_tolerance = 1e-9;
@@ -75,7 +76,7 @@ StudiedProblem make_problem(const StudiedScene& scene, std::optional<double> ref
   return made;
 }
 
-/// Lights one after the other: area lights, points, and each patch if the study has patch lights.
+/// Lights one after the other: area lights, points, each patch.
 struct TrainingLights {
   SolvedLights lights;
   LightCounts counts;
@@ -88,7 +89,7 @@ TrainingLights training_lights(const StudiedScene& scene, const PatchMesh& mesh,
   training.counts.patch = 0;
   const LightSet drawn = draw_lights(mesh, training.counts, options.seed + training_seed_offset, monitor);
   const Index drawn_count = training.counts.total();
-  training.counts.patch = options.lights.patch > 0 ? mesh.patch_count() : 0;
+  training.counts.patch = mesh.patch_count();
   Field emission = Field::Zero(mesh.patch_count(), training.counts.total() * mesh.channels());
   emission.leftCols(drawn.emission.cols()) = drawn.emission;
   for (Index patch = 0; patch < training.counts.patch; ++patch)
@@ -102,15 +103,17 @@ std::array<Index, 3> by_kind(const LightCounts& counts) {
   return {counts.area, counts.point, counts.patch};
 }
 
-/// Every kind as probable as it is among the lights of the study, every light of a kind as the next.
+/// Every kind as probable as it is among `lights`, every training light of a kind as the next; patch lights
+/// at least as probable as `diagonal_share`, which is the multiple of the identity that a covariance of few
+/// area and point lights needs to serve others.
 Eigen::VectorXd probabilities(const LightCounts& training, const LightCounts& lights) {
   Eigen::VectorXd probability(training.total());
   Index first = 0;
   for (std::size_t kind = 0; kind < by_kind(training).size(); ++kind) {
     const Index count = by_kind(training)[kind];
-    probability.segment(first, count)
-        .setConstant(static_cast<double>(by_kind(lights)[kind]) /
-                     static_cast<double>(std::max<Index>(count, 1) * lights.total()));
+    double share = static_cast<double>(by_kind(lights)[kind]) / static_cast<double>(lights.total());
+    if (kind == static_cast<std::size_t>(LightKind::patch)) share = std::max(share, diagonal_share);
+    probability.segment(first, count).setConstant(share / static_cast<double>(std::max<Index>(count, 1)));
     first += count;
   }
   return probability;
@@ -121,21 +124,19 @@ void measure_bounds_alone(const StudiedProblem& studied, const TrainingLights& t
                           const LightCounts& counts, const std::vector<BestRankError*>& bounds) {
   const PatchMesh& mesh = studied.mesh();
   const SolvedLights solved = {studied.lights.emission, studied.radiosity};
-  Index trained = 0;
-  Index measured = 0;
-  for (std::size_t kind = 0; kind < by_kind(counts).size(); ++kind) {
-    const Index training_count = by_kind(training.counts)[kind];
-    const Index count = by_kind(counts)[kind];
-    if (training_count > 0 && count > 0) {
-      const BestRank best(mesh, training.lights.part(mesh, trained, training_count),
-                          Eigen::VectorXd::Constant(training_count, 1 / static_cast<double>(training_count)));
-      const SolvedLights lights = solved.part(mesh, measured, count);
-      for (BestRankError* bound : bounds)
-        bound->alone[kind] =
-            mean_of(relative_errors(mesh, best.radiosity(bound->rank, lights), lights.radiosity));
-    }
-    trained += training_count;
-    measured += count;
+  const std::array<LightCounts, 3> alone = {LightCounts{.area = counts.area},
+                                            LightCounts{.point = counts.point},
+                                            LightCounts{.patch = counts.patch}};
+  Index first = 0;
+  for (std::size_t kind = 0; kind < alone.size(); ++kind) {
+    const Index count = alone[kind].total();
+    if (count == 0) continue;
+    const BestRank best(mesh, training.lights, probabilities(training.counts, alone[kind]));
+    const SolvedLights lights = solved.part(mesh, first, count);
+    for (BestRankError* bound : bounds)
+      bound->alone[kind] =
+          mean_of(relative_errors(mesh, best.radiosity(bound->rank, lights), lights.radiosity));
+    first += count;
   }
 }
 

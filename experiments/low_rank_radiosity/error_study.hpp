@@ -39,7 +39,7 @@ struct ErrorStudyOptions {
   Index smallest_rank = 8;
   double rank_step = 3;                                         ///< ranks grow by this factor up to n/4
   LightCounts lights = {.area = 12, .point = 12, .patch = 12};  ///< what errors are measured with
-  LightCounts training = {.area = 48, .point = 48};  ///< for the bound; all patches serve as patch lights
+  LightCounts training = {.area = 250, .point = 250};  ///< for the bound, and each patch as a patch light
   std::vector<LowRankFactorization> factorizations = studied_factorizations();
   std::uint64_t seed = 1;
 };

@@ -59,6 +59,7 @@ std::string optimality_answer(const Findings& findings) {
   const Index ranks = sum_over<Index>(findings, [](const auto& one) { return one.ranks; });
   const Index in_T = sum_over<Index>(findings, [](const auto& one) { return one.svd_least_in_T; });
   const Index beaten = sum_over<Index>(findings, [](const auto& one) { return one.svd_beaten_in_B; });
+  const Index by_others = sum_over<Index>(findings, [](const auto& one) { return one.svd_beaten_by_others; });
   const auto strongest = std::max_element(findings.begin(), findings.end(), [](const auto& a, const auto& b) {
     return a.largest_gain < b.largest_gain;
   });
@@ -71,8 +72,9 @@ std::string optimality_answer(const Findings& findings) {
   }
   std::string text = fmt::format(
       "Is SVD optimal? In T: SVD, plain or of the area norm, has the least error at {} of {} pairs of "
-      "problem and k. In B: SVD of T is beaten by a factorization of no larger rank at {} of {}",
-      in_T, ranks, beaten, ranks);
+      "problem and k. In B: the mean error of plain SVD is beaten by more than 1 % by a factorization of no "
+      "larger rank at {} of {}, by one that is not SVD in the area norm at {}",
+      in_T, ranks, beaten, ranks, by_others);
   if (beaten > 0)
     text += fmt::format(", at most by a factor of {:.2g} ({}, {}, k = {:.0f})", strongest->largest_gain,
                         strongest->strongest_rival.factorization, strongest->problem.text(),

@@ -90,20 +90,23 @@ void compare_with_svd(const std::map<std::string, RankedRows>& rows, const LowRa
   double least_in_T = std::numeric_limits<double>::infinity();
   double least_of_svd = svd.operator_error;
   bool beaten = false;
+  bool beaten_by_others = false;
   for (const auto& [name, ranked] : rows) {
     const LowRankError* row = row_at(ranked, svd.k);
     if (row == nullptr || row->rank > svd.rank) continue;
     least_in_T = std::min(least_in_T, row->operator_error);
     if (name == area_svd) least_of_svd = std::min(least_of_svd, row->operator_error);
     const double error = row->errors->radiosity_mean;
-    if (error >= svd.errors->radiosity_mean || error <= 0) continue;
+    if (error * noticeable_gain > svd.errors->radiosity_mean || error <= 0) continue;
     beaten = true;
+    beaten_by_others = beaten_by_others || name != area_svd;
     const double gain = svd.errors->radiosity_mean / error;
     if (gain <= findings.largest_gain) continue;
     findings.largest_gain = gain;
     findings.strongest_rival = {static_cast<double>(svd.k), name, error};
   }
   if (beaten) ++findings.svd_beaten_in_B;
+  if (beaten_by_others) ++findings.svd_beaten_by_others;
   if (least_of_svd <= least_in_T) ++findings.svd_least_in_T;
 }
 

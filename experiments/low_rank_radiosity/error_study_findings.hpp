@@ -13,6 +13,9 @@ namespace radiosity {
 /// different x. Points that are not positive are left out.
 std::optional<double> fitted_exponent(const std::vector<std::array<double, 2>>& points);
 
+/// An error counts as smaller than SVD's if that is at least so many times larger.
+constexpr double noticeable_gain = 1.01;
+
 /// Who has the least mean error in B for a given cost.
 struct LeastError {
   double cost = 0;  ///< k, or bytes a patch
@@ -35,12 +38,13 @@ struct ProblemFindings {
   std::vector<LeastError> at_equal_bytes;  ///< at the bytes of SVD of every k
   std::vector<ErrorDecay> decays;
 
-  Index ranks = 0;               ///< values of k at which SVD has an error
-  Index svd_least_in_T = 0;      ///< values of k at which SVD, plain or of the area norm, is least in T
-  Index svd_beaten_in_B = 0;     ///< by a factorization of no larger rank
-  LeastError strongest_rival;    ///< with the largest gain over SVD at equal rank; cost is k
-  double largest_gain = 1;       ///< error in B of SVD / that of the rival
-  double svd_over_best_low = 0;  ///< rms error in B of SVD over the best of rank k, over k
+  Index ranks = 0;                 ///< values of k at which SVD has an error
+  Index svd_least_in_T = 0;        ///< values of k at which SVD, plain or of the area norm, is least in T
+  Index svd_beaten_in_B = 0;       ///< noticeably, by a factorization of no larger rank
+  Index svd_beaten_by_others = 0;  ///< the same, by one that is not SVD in the area norm
+  LeastError strongest_rival;      ///< with the largest gain over SVD at equal rank; cost is k
+  double largest_gain = 1;         ///< error in B of SVD / that of the rival
+  double svd_over_best_low = 0;    ///< rms error in B of SVD over the best of rank k, over k
   double svd_over_best_high = 0;
   std::array<Index, 3> two_mesh_wins{};    ///< values of k at which uniform 2MSC has a smaller error than
                                            ///< SVD, of area, point and patch lights

@@ -192,6 +192,7 @@ TEST(ErrorFindings, SayWhoWinsAndByHowMuch) {
   const ProblemFindings wins = find_in_study(invented_study(3)).front();
   EXPECT_EQ(wins.ranks, 2);
   EXPECT_EQ(wins.svd_beaten_in_B, 2);
+  EXPECT_EQ(wins.svd_beaten_by_others, 2);
   EXPECT_EQ(wins.svd_least_in_T, 2);
   EXPECT_NEAR(wins.largest_gain, 3, 1e-12);
   EXPECT_EQ(wins.strongest_rival.factorization, uniform_two_mesh);
@@ -205,6 +206,8 @@ TEST(ErrorFindings, SayWhoWinsAndByHowMuch) {
   EXPECT_NEAR(wins.at_equal_bytes[0].error, 1.0 / 48, 1e-12);
   for (const ErrorDecay& decay : wins.decays) EXPECT_NEAR(*decay.over_rank, -1, 1e-9) << decay.factorization;
 
+  EXPECT_EQ(find_in_study(invented_study(1.005)).front().svd_beaten_in_B, 0) << "too little to notice";
+
   const ProblemFindings loses = find_in_study(invented_study(0.9)).front();
   EXPECT_EQ(loses.svd_beaten_in_B, 0);
   EXPECT_EQ(loses.two_mesh_wins[0], 0);
@@ -214,9 +217,9 @@ TEST(ErrorFindings, SayWhoWinsAndByHowMuch) {
 
 TEST(ErrorFindings, SentencesFollowTheMeasurements) {
   const std::string wins = answers(invented_study(3)).front();
-  EXPECT_NE(wins.find("at 2 of 2, at most by a factor of 3"), std::string::npos) << wins;
+  EXPECT_NE(wins.find("area norm at 2, at most by a factor of 3"), std::string::npos) << wins;
   const std::string loses = answers(invented_study(0.9)).front();
-  EXPECT_NE(loses.find("at 0 of 2."), std::string::npos) << loses;
+  EXPECT_NE(loses.find("area norm at 0."), std::string::npos) << loses;
 }
 
 TEST(ErrorStudy, WritesFilesAndASection) {
