@@ -1,8 +1,9 @@
 #include "experiments/low_rank_radiosity/error_study.hpp"
 
+#include "experiments/low_rank_radiosity/error_study_bounds.hpp"
 #include "experiments/low_rank_radiosity/error_study_measures.hpp"
+#include "experiments/low_rank_radiosity/error_study_problem.hpp"
 #include "experiments/low_rank_radiosity/error_study_spectrum.hpp"
-#include "experiments/reference_solution.hpp"
 #include "foundation/error.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "scene/built_in.hpp"
@@ -20,145 +21,9 @@
 namespace radiosity {
 namespace {
 
-/// Lights of the training set come from seeds that no light of the study has.
-constexpr std::uint64_t training_seed_offset = 1000003;
-constexpr double diagonal_share = 0.01;
 constexpr int radius_products = 20;
 /// Of Woodbury's answer in double precision: far below every error that is measured.
 constexpr double woodbury_tolerance = 1e-9;
-
-/// One scene: what does not depend on reflectances.
-struct StudiedScene {
-  std::string name;
-  FormFactors form_factors;
-  Eigen::MatrixXd kernel;       ///< K
-  Eigen::VectorXd kernel_rows;  ///< squared lengths of its rows
-  std::vector<Index> ranks;
-};
-
-/// One scene with one set of reflectances, and its lights solved.
-struct StudiedProblem {
-  ErrorStudyProblem problem;
-  FormFactors form_factors;
-  LightSet lights;
-  Field radiosity;
-
-  const PatchMesh& mesh() const { return *form_factors.mesh; }
-};
-
-StudiedScene make_studied_scene(const std::string& name, const ErrorStudyOptions& options, Monitor& monitor) {
-  const auto mesh =
-      std::make_shared<const PatchMesh>(make_patches(built_in_scene(name), {.patches = options.patches}));
-  FormFactors form_factors = compute_form_factors(mesh, {.seed = options.seed}, monitor);
-  Eigen::MatrixXd kernel = materialize(*form_factors.kernel);
-  Eigen::VectorXd rows = kernel.rowwise().squaredNorm();
-  return {name, std::move(form_factors), std::move(kernel), std::move(rows),
-          studied_ranks(mesh->patch_count(), options)};
-}
-
-FormFactors with_grey(const FormFactors& form_factors, std::optional<double> reflectance) {
-  if (!reflectance) return form_factors;
-  FormFactors changed = form_factors;
-  auto mesh = std::make_shared<PatchMesh>(*form_factors.mesh);
-  mesh->reflectance = Eigen::MatrixXd::Constant(mesh->patch_count(), 1, *reflectance);
-  mesh->emission = Eigen::MatrixXd::Zero(mesh->patch_count(), 1);
-  changed.mesh = std::move(mesh);
-  return changed;
-}
-
-StudiedProblem make_problem(const StudiedScene& scene, std::optional<double> reflectance,
-                            const ErrorStudyOptions& options, Monitor& monitor) {
-  StudiedProblem made;
-  made.problem = {scene.name, scene.form_factors.patch_count(), reflectance};
-  made.form_factors = with_grey(scene.form_factors, reflectance);
-  made.lights = draw_lights(made.mesh(), options.lights, options.seed, monitor);
-  made.radiosity = solve_densely(scene.kernel, made.mesh(), made.lights.emission);
-  return made;
-}
-
-/// Lights one after the other: area lights, points, each patch.
-struct TrainingLights {
-  SolvedLights lights;
-  LightCounts counts;
-};
-
-TrainingLights training_lights(const StudiedScene& scene, const PatchMesh& mesh,
-                               const ErrorStudyOptions& options, Monitor& monitor) {
-  TrainingLights training;
-  training.counts = options.training;
-  training.counts.patch = 0;
-  const LightSet drawn = draw_lights(mesh, training.counts, options.seed + training_seed_offset, monitor);
-  const Index drawn_count = training.counts.total();
-  training.counts.patch = mesh.patch_count();
-  Field emission = Field::Zero(mesh.patch_count(), training.counts.total() * mesh.channels());
-  emission.leftCols(drawn.emission.cols()) = drawn.emission;
-  for (Index patch = 0; patch < training.counts.patch; ++patch)
-    emission.block(patch, (drawn_count + patch) * mesh.channels(), 1, mesh.channels()).setOnes();
-  training.lights.radiosity = solve_densely(scene.kernel, mesh, emission);
-  training.lights.emission = std::move(emission);
-  return training;
-}
-
-std::array<Index, 3> by_kind(const LightCounts& counts) {
-  return {counts.area, counts.point, counts.patch};
-}
-
-/// Every kind as probable as it is among `lights`, every training light of a kind as the next; patch lights
-/// at least as probable as `diagonal_share`, which is the multiple of the identity that a covariance of few
-/// area and point lights needs to serve others.
-Eigen::VectorXd probabilities(const LightCounts& training, const LightCounts& lights) {
-  Eigen::VectorXd probability(training.total());
-  Index first = 0;
-  for (std::size_t kind = 0; kind < by_kind(training).size(); ++kind) {
-    const Index count = by_kind(training)[kind];
-    double share = static_cast<double>(by_kind(lights)[kind]) / static_cast<double>(lights.total());
-    if (kind == static_cast<std::size_t>(LightKind::patch)) share = std::max(share, diagonal_share);
-    probability.segment(first, count).setConstant(share / static_cast<double>(std::max<Index>(count, 1)));
-    first += count;
-  }
-  return probability;
-}
-
-/// BestRankError::alone at every rank.
-void measure_bounds_alone(const StudiedProblem& studied, const TrainingLights& training,
-                          const LightCounts& counts, const std::vector<BestRankError*>& bounds) {
-  const PatchMesh& mesh = studied.mesh();
-  const SolvedLights solved = {studied.lights.emission, studied.radiosity};
-  const std::array<LightCounts, 3> alone = {LightCounts{.area = counts.area},
-                                            LightCounts{.point = counts.point},
-                                            LightCounts{.patch = counts.patch}};
-  Index first = 0;
-  for (std::size_t kind = 0; kind < alone.size(); ++kind) {
-    const Index count = alone[kind].total();
-    if (count == 0) continue;
-    const BestRank best(mesh, training.lights, probabilities(training.counts, alone[kind]));
-    const SolvedLights lights = solved.part(mesh, first, count);
-    for (BestRankError* bound : bounds)
-      bound->alone[kind] =
-          mean_of(relative_errors(mesh, best.radiosity(bound->rank, lights), lights.radiosity));
-    first += count;
-  }
-}
-
-void measure_bounds(const StudiedScene& scene, const StudiedProblem& studied,
-                    const ErrorStudyOptions& options, const std::set<Index>& ranks, Monitor& monitor,
-                    ErrorStudy& study) {
-  monitor.checkpoint("best of rank k on " + scene.name, 0);
-  const TrainingLights training = training_lights(scene, studied.mesh(), options, monitor);
-  const BestRank best(studied.mesh(), training.lights, probabilities(training.counts, options.lights));
-  const std::size_t first = study.bounds.size();
-  for (const Index rank : ranks)
-    study.bounds.push_back({studied.problem,
-                            rank,
-                            light_errors(studied.mesh(), studied.lights, studied.radiosity,
-                                         best.radiosity(rank, {studied.lights.emission, studied.radiosity})),
-                            {}});
-  std::vector<BestRankError*> bounds;
-  bounds.reserve(ranks.size());
-  for (std::size_t bound = first; bound < study.bounds.size(); ++bound)
-    bounds.push_back(&study.bounds[bound]);
-  measure_bounds_alone(studied, training, options.lights, bounds);
-}
 
 /// Solves with the approximation by Woodbury's formula.
 LowRankError measure_parts(const StudiedScene& scene, const StudiedProblem& studied,
@@ -219,15 +84,17 @@ void measure_scene(const std::string& name, const ErrorStudyOptions& options,
   study.spectra.push_back(study_spectrum(name, scene.form_factors, scene.kernel));
   std::vector<StudiedProblem> problems;
   for (const std::optional<double> reflectance : options.reflectances)
-    problems.push_back(make_problem(scene, reflectance, options, monitor));
+    problems.push_back(make_studied_problem(scene, reflectance, options, monitor));
   std::set<Index> ranks(scene.ranks.begin(), scene.ranks.end());
   const std::size_t first = study.factorizations.size();
   for (const LowRankFactorization& factorization : options.factorizations)
     measure_factorization(scene, problems, factorization, operators, monitor, study);
   for (std::size_t row = first; row < study.factorizations.size(); ++row)
     ranks.insert(study.factorizations[row].rank);
-  for (const StudiedProblem& studied : problems)
-    measure_bounds(scene, studied, options, ranks, monitor, study);
+  for (const StudiedProblem& studied : problems) {
+    const std::vector<BestRankError> bounds = measure_bounds(scene, studied, ranks, options, monitor);
+    study.bounds.insert(study.bounds.end(), bounds.begin(), bounds.end());
+  }
 }
 
 }  // namespace
