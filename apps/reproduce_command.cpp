@@ -3,6 +3,7 @@
 #include "apps/terminal_monitor.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
+#include "experiments/low_rank_radiosity/error_study.hpp"
 #include "experiments/machine.hpp"
 #include "experiments/report.hpp"
 #include "experiments/solver_study.hpp"
@@ -65,8 +66,25 @@ ReportSection run_hard_case_tables(const ReproduceOptions& options, const std::s
   return hard_cases(options.folder, command, program.operators, program.solvers, monitor);
 }
 
-constexpr std::array<Experiment, 3> experiments = {
-    {{"first-light", run_first_light}, {"solvers", run_solvers}, {"hard-cases", run_hard_case_tables}}};
+ReportSection run_low_rank_errors(const ReproduceOptions& options, const std::string& command,
+                                  const Program& program, Monitor& monitor) {
+  ErrorStudyOptions study;
+  if (options.full) {
+    study.scenes = {"cube", "cornell-box-closed", "patio", "clutter"};
+    study.patches = 3300;
+    study.reflectances = {0.3, 0.5, 0.73, 0.9, 0.99};
+    study.rank_step = 2;
+    study.lights = {.area = 8, .point = 8, .patch = 8};
+    study.training = {.area = 200, .point = 200};
+  }
+  study.seed = options.run.seed;
+  return low_rank_errors(options.folder, command, study, program.operators, monitor);
+}
+
+constexpr std::array<Experiment, 4> experiments = {{{"first-light", run_first_light},
+                                                    {"solvers", run_solvers},
+                                                    {"hard-cases", run_hard_case_tables},
+                                                    {"low-rank-errors", run_low_rank_errors}}};
 
 void require_known_tables(const std::vector<std::string>& tables) {
   std::string known;
@@ -119,7 +137,9 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   CLI::App* command =
       app.add_subcommand("reproduce", "run the experiments: tables and figures, into results/report.html");
   const auto options = std::make_shared<ReproduceOptions>();
-  command->add_option("TABLE", options->tables, "first-light, solvers, hard-cases; default: all")
+  command
+      ->add_option("TABLE", options->tables,
+                   "first-light, solvers, hard-cases, low-rank-errors; default: all")
       ->option_text(" ");
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")
