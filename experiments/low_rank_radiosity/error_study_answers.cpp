@@ -29,9 +29,10 @@ struct Range {
     high = high ? std::max(*high, *value) : *value;
   }
   std::string text(const char* format) const {
-    return low ? fmt::format("{} to {}", fmt::format(fmt::runtime(format), *low),
-                             fmt::format(fmt::runtime(format), *high))
-               : "not fitted";
+    if (!low) return "not fitted";
+    const std::string lowest = fmt::format(fmt::runtime(format), *low);
+    const std::string highest = fmt::format(fmt::runtime(format), *high);
+    return lowest == highest ? lowest : lowest + " to " + highest;
   }
 };
 
