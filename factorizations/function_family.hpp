@@ -12,7 +12,7 @@ namespace radiosity {
 struct FunctionFamily {
   Eigen::Index items = 0;
   Eigen::Index count = 0;
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> coefficients;  ///< W' X, count x c, X of n x c
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> coefficients;       ///< W' X, count x c, X of n x c
   std::function<Eigen::MatrixXd(const std::vector<Eigen::Index>&)> columns;  ///< some of W, n x |which|
 };
 

@@ -14,8 +14,7 @@ void halve(const Eigen::MatrixXd& coordinates, Place begin, Place end) {
   const Eigen::MatrixXd own = coordinates(Eigen::all, std::vector<Index>(begin, end));
   Index axis = 0;
   (own.rowwise().maxCoeff() - own.rowwise().minCoeff()).maxCoeff(&axis);
-  std::stable_sort(begin, end,
-                   [&](Index a, Index b) { return coordinates(axis, a) < coordinates(axis, b); });
+  std::stable_sort(begin, end, [&](Index a, Index b) { return coordinates(axis, a) < coordinates(axis, b); });
   const Place middle = begin + (end - begin) / 2;
   halve(coordinates, begin, middle);
   halve(coordinates, middle, end);

@@ -7,8 +7,7 @@
 namespace radiosity {
 
 Eigen::MatrixXd row_sketch(const MatrixProducts& A, Eigen::Index rows, std::uint64_t seed) {
-  if (rows >= A.rows)
-    return A.apply_transposed(Eigen::MatrixXd::Identity(A.rows, A.rows)).transpose();
+  if (rows >= A.rows) return A.apply_transposed(Eigen::MatrixXd::Identity(A.rows, A.rows)).transpose();
   return A.apply_transposed(normal_numbers(A.rows, rows, seed)).transpose();
 }
 

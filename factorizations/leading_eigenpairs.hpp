@@ -42,8 +42,8 @@ struct LeadingEigenpairs {
 LeadingEigenpairs leading_eigenpairs(const BlockProduct& S, Eigen::Index n, const EigenpairOptions& options);
 
 struct EigenvalueInterval {
-  double low = 0;           ///< with probability >= confidence every eigenvalue lies between low
-  double high = 0;          ///< and high
+  double low = 0;            ///< with probability >= confidence every eigenvalue lies between low
+  double high = 0;           ///< and high
   double smallest_ritz = 0;  ///< some lie here or below
   double largest_ritz = 0;   ///< and some here or above
   double confidence = 0;

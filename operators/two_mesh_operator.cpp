@@ -111,8 +111,8 @@ std::unique_ptr<LinearOperator> make_sparse_v_operator(Spec& spec, const FormFac
   const PartitionChoice choice = PartitionChoice::take(spec);
   const std::string storage = spec.choice("storage", "f32", {"f32", "f64"});
   const std::string factors = spec.choice("factors", "sums", {"sums", "direct"});
-  const std::string described = fmt::format("sparse-v:k={},{},storage={},factors={}", choice.patches,
-                                            choice.text, storage, factors);
+  const std::string described =
+      fmt::format("sparse-v:k={},{},storage={},factors={}", choice.patches, choice.text, storage, factors);
   if (factors == "direct") return make_direct_sparse_v(spec, form_factors, choice, storage, described);
   spec.finish();
   const ChosenPartition chosen = choose_partition(form_factors, choice);

@@ -15,9 +15,9 @@ namespace {
 
 constexpr Index kSquares = 24128;  // n of document 004, figure 4
 constexpr double kSide = 0.25;
-constexpr double kWidth = 15.5, kCourt = 9, kHeight = 8.75, kThickness = 0.75;
+constexpr double kWidth = 15.5, kCourt = 9, kHeight = 8.75, kSlabThickness = 0.75;
 constexpr double kGroundCeiling = 3.75, kUpperFloor = 4.5, kParapetTop = 5.75, kUpperCeiling = 8;
-constexpr double kBay = 2.5, kLampArea = kThickness * 2.5;
+constexpr double kBay = 2.5, kLampArea = kSlabThickness * 2.5;
 
 const PatchMesh& patio_of_squares() {
   static const PatchMesh mesh = make_patches(built_in_scene("patio"), {.patches = kSquares});
@@ -53,8 +53,8 @@ TEST(Patio, ComesCloseToOtherNumbersWithoutSlivers) {
 
 // Layer by layer: of the storeys without their pillars, the galleries behind the parapets, and the court.
 double volume_of_air() {
-  const double pillars = 12 * kThickness * kThickness;
-  const double inside_parapets = kCourt + 2 * kThickness;
+  const double pillars = 12 * kSlabThickness * kSlabThickness;
+  const double inside_parapets = kCourt + 2 * kSlabThickness;
   const double behind_parapets = kWidth * kWidth - inside_parapets * inside_parapets + kCourt * kCourt;
   return (kWidth * kWidth - pillars) * (kGroundCeiling + kUpperCeiling - kParapetTop) +
          behind_parapets * (kParapetTop - kUpperFloor) +
@@ -130,18 +130,18 @@ TEST(Patio, LooksTheSameFromAllFourSides) {
 
 TEST(Patio, NamesGroupsByStoreyAndPart) {
   auto areas = area_by_group(patio_of_squares());
-  const double pillars = 12 * kThickness * kThickness, galleries = kWidth * kWidth - kCourt * kCourt;
+  const double pillars = 12 * kSlabThickness * kSlabThickness, galleries = kWidth * kWidth - kCourt * kCourt;
   EXPECT_NEAR(areas["court"], kCourt * kCourt, 1e-9);
   EXPECT_NEAR(areas["ground/floor"], galleries - pillars, 1e-9);
   EXPECT_NEAR(areas["ground/walls"], 4 * kWidth * kGroundCeiling, 1e-9);
   EXPECT_NEAR(areas["upper/walls"], 4 * kWidth * (kUpperCeiling - kUpperFloor), 1e-9);
-  EXPECT_NEAR(areas["ground/pillars"], 12 * 4 * kThickness * kGroundCeiling, 1e-9);
+  EXPECT_NEAR(areas["ground/pillars"], 12 * 4 * kSlabThickness * kGroundCeiling, 1e-9);
   for (const char* storey : {"ground", "upper"}) {
     EXPECT_NEAR(areas[fmt::format("{}/ceiling", storey)], galleries - pillars - 8 * kLampArea, 1e-9);
-    EXPECT_NEAR(areas[fmt::format("{}/lintels", storey)], 4 * kCourt * kThickness, 1e-9);
+    EXPECT_NEAR(areas[fmt::format("{}/lintels", storey)], 4 * kCourt * kSlabThickness, 1e-9);
   }
-  EXPECT_NEAR(areas["upper/floor"], galleries - 4 * kThickness * (kCourt + kThickness), 1e-9);
-  EXPECT_NEAR(areas["upper/parapets"], 12 * kBay * (2 * (kParapetTop - kUpperFloor) + kThickness), 1e-9);
+  EXPECT_NEAR(areas["upper/floor"], galleries - 4 * kSlabThickness * (kCourt + kSlabThickness), 1e-9);
+  EXPECT_NEAR(areas["upper/parapets"], 12 * kBay * (2 * (kParapetTop - kUpperFloor) + kSlabThickness), 1e-9);
   EXPECT_EQ(areas.size(), 12 + 16U) << "court, five parts a storey, parapets, lamps";
 }
 

@@ -40,8 +40,8 @@ TEST(Woodbury, IsBackwardStableUpToConditionTwoToTheTwelveDecades) {
     for (const double condition : {2e1, 2e3, 2e6, 2e9, 2e12}) {
       const Room room = separate_spheres(rank, rank == 1 ? 100 : 4, 1 - 1 / condition);
       for (const char* norm : {"plain", "area"}) {
-        const auto transport = cpu_operators().make(
-            fmt::format("svd:k={},norm={},storage=f64", rank, norm), form_factors_of(room));
+        const auto transport = cpu_operators().make(fmt::format("svd:k={},norm={},storage=f64", rank, norm),
+                                                    form_factors_of(room));
         Woodbury solver({*transport, room.root_area(), {.tolerance = 1e-17, .max_products = 2}});
         const Field E = random_lights(room.size(), 2, 3);
         solver.start(E);
@@ -61,8 +61,7 @@ TEST(Woodbury, SinglePrecisionIsWithinItsCondition) {
     const Room room = separate_spheres(8, 30, 1 - 1 / condition);
     const Field E = random_lights(room.size(), 1, 4);
     const auto answer = [&](const std::string& storage) {
-      const auto transport =
-          cpu_operators().make("svd:k=8,storage=" + storage, form_factors_of(room));
+      const auto transport = cpu_operators().make("svd:k=8,storage=" + storage, form_factors_of(room));
       Woodbury solver({*transport, room.root_area(), {.tolerance = 1e-3}});
       return Field(solve(solver, E));
     };
