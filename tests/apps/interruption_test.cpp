@@ -19,7 +19,8 @@ const std::vector<std::string> long_work = {"form-factors", "cornell-box", "--pa
 
 ProcessResult interrupted(int signal, const TemporaryFolder& folder) {
   RunningProgram program(long_work, folder.path());
-  std::this_thread::sleep_for(1500ms);
+  EXPECT_TRUE(program.waits_for(signal));
+  std::this_thread::sleep_for(500ms);  // into the work
   program.send(signal);
   return program.wait();
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
@@ -10,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace radiosity::test {
@@ -100,6 +103,22 @@ RunningProgram::~RunningProgram() {
 
 void RunningProgram::send(int signal) const {
   kill(process_, signal);
+}
+
+bool RunningProgram::waits_for(int signal) const {
+  using namespace std::chrono_literals;
+  const auto deadline = std::chrono::steady_clock::now() + 60s;
+  const fs::path status = fs::path("/proc") / std::to_string(process_) / "status";
+  const std::string key = "SigCgt:";
+  while (std::chrono::steady_clock::now() < deadline) {
+    const std::string text = content_of(status);
+    const std::size_t at = text.find(key);
+    if (at == std::string::npos) return false;
+    const std::uint64_t caught = std::stoull(text.substr(at + key.size()), nullptr, 16);
+    if ((caught >> static_cast<unsigned>(signal - 1) & 1U) != 0) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
 }
 
 ProcessResult RunningProgram::wait() {

@@ -47,6 +47,9 @@ class RunningProgram {
 
   void send(int signal) const;
 
+  /// Waits until the program handles the signal, a minute at most: until then it would end it as any other.
+  bool waits_for(int signal) const;
+
   /// Waits for the end.
   ProcessResult wait();
 
