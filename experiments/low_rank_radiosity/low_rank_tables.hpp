@@ -1,0 +1,106 @@
+#pragma once
+
+#include "experiments/comparison.hpp"
+#include "experiments/low_rank_benchmark.hpp"
+#include "experiments/report.hpp"
+#include "foundation/monitor.hpp"
+#include "operators/operator_registry.hpp"
+#include "solvers/solver_registry.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace radiosity {
+
+/// Tables 1 to 5 of document 004 on the cube, with its n and k.
+struct LowRankTablesOptions {
+  std::vector<LowRankSize> sizes;        ///< of Tables 1 to 3, at least one; the last three are Table 4's
+  std::vector<LowRankSize> large_sizes;  ///< of Table 5: sparse V only
+  double largest_timed = 5e7;            ///< n k above which a size keeps its line but is not measured
+  double largest_computed = 1.2e7;  ///< n k above which Y is random: as fast, but no illumination of anything
+  double largest_dense_error = 3456;                ///< n up to which B is compared with the dense solution
+  LowRankSize equal_size = {3456, 3456};            ///< n = k, where B must be the dense one
+  LightCounts lights = {.area = 12};                ///< of the errors
+  double seconds = 0.8;                             ///< of timing for each size and number of threads
+  std::size_t stream_bytes = std::size_t{1} << 30;  ///< read to measure the memory's bandwidth
+  std::size_t cached_bytes = 100'000'000;           ///< of Y, below which bandwidth is not asked for
+  double tolerance = 1e-3;                          ///< of each F_ep
+  std::uint64_t seed = 1;
+
+  /// The document's nine sizes and six large ones.
+  LowRankTablesOptions();
+};
+
+/// One frame of Algorithm 2 and its first product, c columns at once.
+struct FrameTimes {
+  int threads = 0;
+  Index columns = 1;
+  std::optional<Timing>
+      full_sums;       ///< X = V' E with all n k numbers of V; empty where only sparse V is timed
+  Timing sparse_sums;  ///< the same from E sorted by patch
+  std::optional<Timing> full_frame;  ///< B = E - Y X, with X
+  Timing sparse_frame;
+  std::optional<double> full_bandwidth;  ///< bytes of Y and V / time / read bandwidth; empty in the cache
+  std::optional<double> sparse_bandwidth;
+};
+
+/// One n x k.
+struct LowRankTableRow {
+  LowRankSize size;
+  std::size_t sparse_bytes = 0;   ///< of Y and V as offsets
+  std::size_t full_bytes = 0;     ///< of Y and V
+  bool computed = false;          ///< Y from form factors; else random
+  double factor_seconds = 0;      ///< to compute U
+  double fold_seconds = 0;        ///< to make Y of U
+  std::vector<FrameTimes> times;  ///< empty: not measured
+
+  /// Empty where it was not measured.
+  const FrameTimes* find(int threads, Index columns) const;
+};
+
+/// Mean relative error in B over area lights of the uniform 2MSC against the dense solution with the same F.
+struct DenseComparison {
+  LowRankSize size;
+  std::optional<double> radiosity_mean;  ///< empty where n is too large
+  std::optional<double> indirect_mean;
+};
+
+/// B = E - Y (V' E) with n = k against the dense solution.
+struct DenseEquality {
+  Index patches = 0;
+  double same_factors = 0;    ///< largest |B - B_dense| / B_dense with U from the assembled F: rounding
+  double direct_factors = 0;  ///< the same with U computed at n x k: what its form factors are less exact
+};
+
+struct LowRankTables {
+  int threads = 0;  ///< of "all threads"
+  double load_before = 0;
+  double load_after = 0;
+  double resident_bytes = 0;  ///< the most that the process had in memory so far
+  std::vector<LowRankTableRow> rows;
+  std::vector<LowRankTableRow> large_rows;
+  std::vector<DenseComparison> errors;  ///< of `sizes`
+  DenseEquality equality;
+};
+
+/// Throws Error where a size that is to be measured does not fit into free memory.
+LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, const OperatorRegistry& operators,
+                                      const SolverRegistry& solvers, Monitor& monitor);
+
+/// The tables, the document's numbers beside ours.
+ReportSection low_rank_tables_section(const LowRankTables& tables, const LowRankTablesOptions& options,
+                                      const std::string& command);
+
+/// low_rank_tables.json and low_rank_tables.csv.
+void write_low_rank_tables(const std::filesystem::path& folder, const LowRankTables& tables);
+
+/// Measures, writes low_rank_tables.json and .csv into `folder` (made if it is missing), returns the section.
+ReportSection low_rank_tables(const std::filesystem::path& folder, const std::string& command,
+                              const LowRankTablesOptions& options, const OperatorRegistry& operators,
+                              const SolverRegistry& solvers, Monitor& monitor);
+
+}  // namespace radiosity
