@@ -1,7 +1,7 @@
 #include "experiments/low_rank_radiosity/low_rank_tables.hpp"
 
 #include "experiments/low_rank_radiosity/cube_meshes.hpp"
-#include "experiments/low_rank_radiosity/dense_comparison.hpp"
+#include "experiments/low_rank_radiosity/dense_solutions.hpp"
 #include "experiments/low_rank_radiosity/frame_times.hpp"
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 #include "experiments/low_rank_radiosity/published_tables.hpp"
@@ -73,7 +73,7 @@ void require_memory(const LowRankSize& size, bool with_full) {
 }
 
 LowRankTableRow measure_size(const LowRankSize& size, bool with_full, const LowRankTablesOptions& options,
-                             ReadStream& stream, Monitor& monitor) {
+                             ReadStream& stream, DenseSolutions& dense, Monitor& monitor) {
   LowRankTableRow row;
   row.size = size;
   if (entries_of(size) > options.largest_timed) return row;
@@ -82,6 +82,7 @@ LowRankTableRow measure_size(const LowRankSize& size, bool with_full, const LowR
   const SolvedFactors factors = entries_of(size) <= options.largest_computed
                                     ? compute_factors(options, row, monitor)
                                     : random_factors(options, size);
+  if (row.computed) row.errors = dense.compare(factors.V, factors.Y, monitor);
   row.sparse_bytes = factors.Y.entry_bytes() + factors.V.offset_bytes();
   std::optional<TallMatrix<float>> full;
   if (with_full) full.emplace(full_matrix(factors.V));
@@ -114,33 +115,28 @@ const FrameTimes* LowRankTableRow::find(int threads, Index columns) const {
   return nullptr;
 }
 
-LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, const OperatorRegistry& operators,
-                                      const SolverRegistry& solvers, Monitor& monitor) {
+LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, Monitor& monitor) {
   if (options.sizes.empty()) fail<UsageError>("the tables of document 004 need one size n x k at least");
   LowRankTables tables;
   tables.threads = ThreadLimit::current();
   tables.load_before = load_average();
-  {
-    ReadStream stream(options.stream_bytes);
-    for (const LowRankSize& size : options.sizes)
-      tables.rows.push_back(measure_size(size, true, options, stream, monitor));
-    for (const LowRankSize& size : options.large_sizes)
-      tables.large_rows.push_back(measure_size(size, false, options, stream, monitor));
-  }
-  tables.errors = compare_with_dense(options, operators, solvers, monitor);
-  tables.equality = measure_equality(options, monitor);
+  ReadStream stream(options.stream_bytes);
+  DenseSolutions dense(options);
+  for (const LowRankSize& size : options.sizes)
+    tables.rows.push_back(measure_size(size, true, options, stream, dense, monitor));
+  for (const LowRankSize& size : options.large_sizes)
+    tables.large_rows.push_back(measure_size(size, false, options, stream, dense, monitor));
   tables.load_after = load_average();
   tables.resident_bytes = most_resident_bytes();
   return tables;
 }
 
 ReportSection low_rank_tables(const std::filesystem::path& folder, const std::string& command,
-                              const LowRankTablesOptions& options, const OperatorRegistry& operators,
-                              const SolverRegistry& solvers, Monitor& monitor) {
+                              const LowRankTablesOptions& options, Monitor& monitor) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
-  const LowRankTables tables = measure_low_rank_tables(options, operators, solvers, monitor);
+  const LowRankTables tables = measure_low_rank_tables(options, monitor);
   write_low_rank_tables(folder, tables);
   return low_rank_tables_section(tables, options, command);
 }

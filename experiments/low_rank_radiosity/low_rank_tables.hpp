@@ -4,8 +4,6 @@
 #include "experiments/low_rank_benchmark.hpp"
 #include "experiments/report.hpp"
 #include "foundation/monitor.hpp"
-#include "operators/operator_registry.hpp"
-#include "solvers/solver_registry.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,9 +21,9 @@ struct LowRankTablesOptions {
   double largest_timed = 5e7;            ///< n k above which a size keeps its line but is not measured
   double largest_computed = 1.2e7;  ///< n k above which Y is random: as fast, but no illumination of anything
   double largest_dense_error = 3456;                ///< n up to which B is compared with the dense solution
-  LowRankSize equal_size = {3456, 3456};            ///< n = k, where B must be the dense one
   LightCounts lights = {.area = 12};                ///< of the errors
-  double seconds = 0.8;                             ///< of timing for each size and number of threads
+  double seconds = 1;                               ///< of timing for each size that caches hold
+  double streamed_seconds = 3;                      ///< for each that is read from memory
   std::size_t stream_bytes = std::size_t{1} << 30;  ///< read to measure the memory's bandwidth
   std::size_t cached_bytes = 100'000'000;           ///< of Y, below which bandwidth is not asked for
   double tolerance = 1e-3;                          ///< of each F_ep
@@ -48,32 +46,27 @@ struct FrameTimes {
   std::optional<double> sparse_bandwidth;
 };
 
+/// Relative errors in B of uniform 2MSC over the lights, against the dense solution with the F of all
+/// elements.
+struct DenseErrors {
+  double radiosity_mean = 0;      ///< of ||B - B_dense||_A / ||B_dense||_A
+  double indirect_mean = 0;       ///< the same for B - E
+  double largest_difference = 0;  ///< of |B - B_dense| / B_dense over elements and lights
+};
+
 /// One n x k.
 struct LowRankTableRow {
   LowRankSize size;
-  std::size_t sparse_bytes = 0;   ///< of Y and V as offsets
-  std::size_t full_bytes = 0;     ///< of Y and V
-  bool computed = false;          ///< Y from form factors; else random
-  double factor_seconds = 0;      ///< to compute U
-  double fold_seconds = 0;        ///< to make Y of U
-  std::vector<FrameTimes> times;  ///< empty: not measured
+  std::size_t sparse_bytes = 0;       ///< of Y and V as offsets
+  std::size_t full_bytes = 0;         ///< of Y and V
+  bool computed = false;              ///< Y from form factors; else random
+  double factor_seconds = 0;          ///< to compute U
+  double fold_seconds = 0;            ///< to make Y of U
+  std::vector<FrameTimes> times;      ///< empty: not measured
+  std::optional<DenseErrors> errors;  ///< empty where Y is random or n too large
 
   /// Empty where it was not measured.
   const FrameTimes* find(int threads, Index columns) const;
-};
-
-/// Mean relative error in B over area lights of the uniform 2MSC against the dense solution with the same F.
-struct DenseComparison {
-  LowRankSize size;
-  std::optional<double> radiosity_mean;  ///< empty where n is too large
-  std::optional<double> indirect_mean;
-};
-
-/// B = E - Y (V' E) with n = k against the dense solution.
-struct DenseEquality {
-  Index patches = 0;
-  double same_factors = 0;    ///< largest |B - B_dense| / B_dense with U from the assembled F: rounding
-  double direct_factors = 0;  ///< the same with U computed at n x k: what its form factors are less exact
 };
 
 struct LowRankTables {
@@ -83,13 +76,10 @@ struct LowRankTables {
   double resident_bytes = 0;  ///< the most that the process had in memory so far
   std::vector<LowRankTableRow> rows;
   std::vector<LowRankTableRow> large_rows;
-  std::vector<DenseComparison> errors;  ///< of `sizes`
-  DenseEquality equality;
 };
 
 /// Throws Error where a size that is to be measured does not fit into free memory.
-LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, const OperatorRegistry& operators,
-                                      const SolverRegistry& solvers, Monitor& monitor);
+LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, Monitor& monitor);
 
 /// The tables, the document's numbers beside ours.
 ReportSection low_rank_tables_section(const LowRankTables& tables, const LowRankTablesOptions& options,
@@ -100,7 +90,6 @@ void write_low_rank_tables(const std::filesystem::path& folder, const LowRankTab
 
 /// Measures, writes low_rank_tables.json and .csv into `folder` (made if it is missing), returns the section.
 ReportSection low_rank_tables(const std::filesystem::path& folder, const std::string& command,
-                              const LowRankTablesOptions& options, const OperatorRegistry& operators,
-                              const SolverRegistry& solvers, Monitor& monitor);
+                              const LowRankTablesOptions& options, Monitor& monitor);
 
 }  // namespace radiosity

@@ -26,6 +26,13 @@ Json frame_json(const FrameTimes& frame) {
           {"sparse_bandwidth", or_null(frame.sparse_bandwidth)}};
 }
 
+Json dense_errors_json(const std::optional<DenseErrors>& errors) {
+  if (!errors) return nullptr;
+  return {{"radiosity_mean", errors->radiosity_mean},
+          {"indirect_mean", errors->indirect_mean},
+          {"largest_difference", errors->largest_difference}};
+}
+
 Json table_rows_json(const std::vector<LowRankTableRow>& rows) {
   Json list = Json::array();
   for (const LowRankTableRow& row : rows) {
@@ -38,18 +45,9 @@ Json table_rows_json(const std::vector<LowRankTableRow>& rows) {
                     {"computed", row.computed},
                     {"factor_seconds", row.factor_seconds},
                     {"fold_seconds", row.fold_seconds},
+                    {"errors", dense_errors_json(row.errors)},
                     {"times", times}});
   }
-  return list;
-}
-
-Json dense_comparison_json(const std::vector<DenseComparison>& errors) {
-  Json list = Json::array();
-  for (const DenseComparison& error : errors)
-    list.push_back({{"n", error.size.rows},
-                    {"k", error.size.rank},
-                    {"radiosity_mean", or_null(error.radiosity_mean)},
-                    {"indirect_mean", or_null(error.indirect_mean)}});
   return list;
 }
 
@@ -76,12 +74,7 @@ void write_low_rank_tables(const std::filesystem::path& folder, const LowRankTab
                                                {"load_after", tables.load_after},
                                                {"resident_bytes", tables.resident_bytes},
                                                {"sizes", table_rows_json(tables.rows)},
-                                               {"large_sizes", table_rows_json(tables.large_rows)},
-                                               {"errors", dense_comparison_json(tables.errors)},
-                                               {"equality",
-                                                {{"n", tables.equality.patches},
-                                                 {"same_factors", tables.equality.same_factors},
-                                                 {"direct_factors", tables.equality.direct_factors}}}});
+                                               {"large_sizes", table_rows_json(tables.large_rows)}});
   OutputFile file(folder / "low_rank_tables.csv");
   file.stream() << "n,k,computed,threads,columns,full_sums_min,full_sums_median,sparse_sums_min,"
                    "sparse_sums_median,full_frame_min,full_frame_median,sparse_frame_min,"

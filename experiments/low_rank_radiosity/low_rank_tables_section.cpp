@@ -193,15 +193,17 @@ ReportTable error_table(const LowRankTables& tables, const LowRankTablesOptions&
       return table_number(row.times.empty() ? std::nullopt
                                             : std::optional(1e-6 * static_cast<double>(bytes)));
     };
+    const auto error = [&](double DenseErrors::*member) {
+      return row.errors ? fmt::format("{:.1e}", (*row.errors).*member) : table_number({});
+    };
     const auto seconds = [&](double number) {
       return table_number(row.computed ? std::optional(number) : std::nullopt);
     };
     std::vector<std::string>& line = table.rows[i];
-    line.insert(line.end(),
-                {table_number(tables.errors[i].radiosity_mean), table_number(tables.errors[i].indirect_mean),
-                 megabytes(row.sparse_bytes), megabytes(row.full_bytes),
-                 row.times.empty() ? not_yet : (row.computed ? "computed" : "random"),
-                 seconds(row.factor_seconds), seconds(row.fold_seconds)});
+    line.insert(line.end(), {error(&DenseErrors::radiosity_mean), error(&DenseErrors::indirect_mean),
+                             megabytes(row.sparse_bytes), megabytes(row.full_bytes),
+                             row.times.empty() ? not_yet : (row.computed ? "computed" : "random"),
+                             seconds(row.factor_seconds), seconds(row.fold_seconds)});
   }
   return table;
 }
@@ -223,11 +225,16 @@ std::string method_text(const LowRankTables& tables) {
       tables.threads, tables.load_before, tables.load_after, 1e-9 * tables.resident_bytes);
 }
 
-std::string equality_text(const DenseEquality& equality) {
-  return fmt::format(
-      "With n = k = {} B is the dense solution: largest relative difference {:.1e} with U from the same form "
-      "factors (Y is in float32), {:.1e} with U computed between elements and patches, to its own tolerance.",
-      equality.patches, equality.same_factors, equality.direct_factors);
+/// What n = k, where 2MSC approximates nothing, gives; empty if there is no such size.
+std::string equality_text(const LowRankTables& tables) {
+  for (const LowRankTableRow& row : tables.rows)
+    if (row.size.rows == row.size.rank && row.errors)
+      return fmt::format(
+          "With n = k = {} B is the dense solution: the largest relative difference of an element is {:.1e}, "
+          "the "
+          "rounding of Y in float32.",
+          row.size.rows, row.errors->largest_difference);
+  return {};
 }
 
 }  // namespace
@@ -248,7 +255,8 @@ ReportSection low_rank_tables_section(const LowRankTables& tables, const LowRank
   std::copy(tables.large_rows.begin(), tables.large_rows.end(), std::back_inserter(all));
   section.blocks.emplace_back(bandwidth_table(tables, all, command));
   section.blocks.emplace_back(error_table(tables, options, command));
-  section.blocks.emplace_back(ReportText{equality_text(tables.equality)});
+  if (const std::string text = equality_text(tables); !text.empty())
+    section.blocks.emplace_back(ReportText{text});
   return section;
 }
 
