@@ -88,9 +88,9 @@ LowRankTableRow measure_size(const LowRankSize& size, bool with_full, const LowR
   if (with_full) full.emplace(full_matrix(factors.V));
   if (full) row.full_bytes = factors.Y.entry_bytes() + full->entry_bytes();
   monitor.checkpoint(fmt::format("timing {} x {}", size.rows, size.rank), 0);
-  row.times =
-      time_frames(factors.Y, factors.V, full ? &*full : nullptr,
-                  factors.Y.entry_bytes() >= options.cached_bytes ? &stream : nullptr, options.seconds);
+  const bool streamed = factors.Y.entry_bytes() >= options.cached_bytes;
+  row.times = time_frames(factors.Y, factors.V, full ? &*full : nullptr, streamed ? &stream : nullptr,
+                          streamed ? options.streamed_seconds : options.seconds);
   return row;
 }
 
