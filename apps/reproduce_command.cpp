@@ -4,6 +4,7 @@
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
 #include "experiments/low_rank_radiosity/error_study.hpp"
+#include "experiments/low_rank_radiosity/low_rank_tables.hpp"
 #include "experiments/machine.hpp"
 #include "experiments/report.hpp"
 #include "experiments/solver_study.hpp"
@@ -81,10 +82,25 @@ ReportSection run_low_rank_errors(const ReproduceOptions& options, const std::st
   return low_rank_errors(options.folder, command, study, program.operators, monitor);
 }
 
-constexpr std::array<Experiment, 4> experiments = {{{"first-light", run_first_light},
+ReportSection run_low_rank_tables(const ReproduceOptions& options, const std::string& command,
+                                  const Program& /*program*/, Monitor& monitor) {
+  LowRankTablesOptions study;
+  if (options.full) {
+    study.largest_timed = 1e9;
+    study.largest_computed = 1e9;
+    study.largest_dense_error = 13824;
+    study.seconds = 4;
+    study.streamed_seconds = 12;
+  }
+  study.seed = options.run.seed;
+  return low_rank_tables(options.folder, command, study, monitor);
+}
+
+constexpr std::array<Experiment, 5> experiments = {{{"first-light", run_first_light},
                                                     {"solvers", run_solvers},
                                                     {"hard-cases", run_hard_case_tables},
-                                                    {"low-rank-errors", run_low_rank_errors}}};
+                                                    {"low-rank-errors", run_low_rank_errors},
+                                                    {"low-rank-tables", run_low_rank_tables}}};
 
 void require_known_tables(const std::vector<std::string>& tables) {
   std::string known;
@@ -139,7 +155,7 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   const auto options = std::make_shared<ReproduceOptions>();
   command
       ->add_option("TABLE", options->tables,
-                   "first-light, solvers, hard-cases, low-rank-errors; default: all")
+                   "first-light, solvers, hard-cases, low-rank-errors, low-rank-tables; default: all")
       ->option_text(" ");
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")

@@ -35,28 +35,35 @@ void fill_rows(TallMatrix<float>& U, Index first, const Eigen::MatrixXd& factors
 
 }  // namespace
 
+DirectTwoMeshFactors compute_two_mesh_factors(const PatchMesh& elements, const CoarseMesh& coarse,
+                                              const ElementFactorOptions& options, Monitor& monitor) {
+  const ElementPartition partition(coarse.patch_of_element, elements.area);
+  const Eigen::VectorXd inverse_divisors = partition.divisors().cwiseInverse();
+  DirectTwoMeshFactors result{partition.right_factor(),
+                              TallMatrix<float>(elements.patch_count(), partition.patches())};
+  result.rays = compute_element_factors(
+      elements, row_order(result.V), coarse.patches, options,
+      [&](Index first, const Eigen::MatrixXd& factors) {
+        fill_rows(result.U, first, factors, inverse_divisors);
+      },
+      monitor);
+  return result;
+}
+
 DirectTwoMesh make_direct_two_mesh(std::shared_ptr<const PatchMesh> elements, const PartitionChoice& choice,
                                    const ElementFactorOptions& options, const std::string& spec,
                                    Monitor& monitor) {
-  std::optional<CoarseMesh> coarse = make_coarse_mesh(*elements, choice);
+  const std::optional<CoarseMesh> coarse = make_coarse_mesh(*elements, choice);
   if (!coarse)
     fail<UsageError>(
         "'{}' has no coarse mesh of at most {} patches, for its faces are more: ask for a larger k",
         elements->scene->name, choice.patches);
-  const ElementPartition partition(std::move(coarse->patch_of_element), elements->area);
-  Segments V = partition.right_factor();
-  const Eigen::VectorXd inverse_divisors = partition.divisors().cwiseInverse();
-  TallMatrix<float> U(elements->patch_count(), partition.patches());
-  DirectTwoMesh result;
-  result.rays = compute_element_factors(
-      *elements, row_order(V), coarse->patches, options,
-      [&](Index first, const Eigen::MatrixXd& factors) { fill_rows(U, first, factors, inverse_divisors); },
-      monitor);
+  DirectTwoMeshFactors factors = compute_two_mesh_factors(*elements, *coarse, options, monitor);
   FormFactors form_factors;
   form_factors.mesh = std::move(elements);
-  result.transport =
-      std::make_unique<SparseVOperator<float>>(form_factors, std::move(V), std::move(U), spec, std::string());
-  return result;
+  return {std::make_unique<SparseVOperator<float>>(form_factors, std::move(factors.V), std::move(factors.U),
+                                                   spec, std::string()),
+          factors.rays};
 }
 
 }  // namespace radiosity
