@@ -50,9 +50,9 @@ ElementPartition partition_of(const FormFactors& F, const std::string& spec) {
 
 TEST(TwoMesh, IsFOnPatchMeans) {
   for (const char* scene : {"cube", "clutter"}) {
-    const FormFactors F = factors_of(scene, 600);
+    const FormFactors F = factors_of(scene, 300);
     for (const std::string mesh : {"uniform", "adaptive"}) {
-      const std::string keys = "k=120,mesh=" + mesh;
+      const std::string keys = "k=90,mesh=" + mesh;
       const Eigen::MatrixXd P = patch_means(partition_of(F, "2msc:" + keys));
       const Eigen::MatrixXd T =
           F.mesh->reflectance.rightCols(F.mesh->channels() == 3 ? 2 : 1).col(0).asDiagonal() * F.matrix();
@@ -84,7 +84,7 @@ TEST(TwoMesh, WithAsManyPatchesAsElementsIsDense) {
 }
 
 TEST(TwoMesh, KeepsRowSums) {
-  const FormFactors F = factors_of("cornell-box-closed", 900);
+  const FormFactors F = factors_of("cornell-box-closed", 500);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(F.patch_count());
   for (const char* spec : {"2msc:k=100", "sparse-v:k=100,assign=proximity", "2msc:k=100,sides=two"}) {
     const auto transport = cpu_operators().make(spec, F);
@@ -96,8 +96,8 @@ TEST(TwoMesh, KeepsRowSums) {
 }
 
 TEST(SparseV, TakesSortedFieldsWithoutItsPermutation) {
-  const FormFactors F = factors_of("clutter", 600);
-  const auto made = cpu_operators().make("sparse-v:k=120", F);
+  const FormFactors F = factors_of("clutter", 300);
+  const auto made = cpu_operators().make("sparse-v:k=90", F);
   const auto& transport = dynamic_cast<const SparseVOperator<float>&>(*made);
   const std::vector<std::int32_t>& order = transport.right_factor().order();
   ASSERT_FALSE(order.empty());
@@ -125,18 +125,18 @@ TEST(SparseV, TakesHalfTheBytesOfFullV) {
 }
 
 TEST(SparseV, DirectlyFromTheMeshesIsNearTheSums) {
-  const FormFactors F = factors_of("clutter", 1000);
-  const Field sums = materialized(*cpu_operators().make("sparse-v:k=150", F));
+  const FormFactors F = factors_of("clutter", 400);
+  const Field sums = materialized(*cpu_operators().make("sparse-v:k=100", F));
   FormFactors mesh_alone;
   mesh_alone.mesh = F.mesh;
   const OperatorRegistry registry = cpu_operators();
-  EXPECT_TRUE(registry.needs_form_factors("sparse-v:k=150"));
-  ASSERT_FALSE(registry.needs_form_factors("sparse-v:k=150,factors=direct"));
-  const Field direct = materialized(*registry.make("sparse-v:k=150,factors=direct", mesh_alone));
+  EXPECT_TRUE(registry.needs_form_factors("sparse-v:k=100"));
+  ASSERT_FALSE(registry.needs_form_factors("sparse-v:k=100,factors=direct"));
+  const Field direct = materialized(*registry.make("sparse-v:k=100,factors=direct", mesh_alone));
   EXPECT_LE((direct - sums).norm(), 0.05 * sums.norm());
-  EXPECT_THROW(registry.make("sparse-v:k=150", mesh_alone), UsageError);
+  EXPECT_THROW(registry.make("sparse-v:k=100", mesh_alone), UsageError);
   EXPECT_THROW(registry.make("sparse-v:k=5,factors=direct", mesh_alone), UsageError);
-  EXPECT_THROW(registry.make("sparse-v:k=150,factors=direct",
+  EXPECT_THROW(registry.make("sparse-v:k=100,factors=direct",
                              form_factors_of(exact_rooms::sphere_cavity(200, 1, 0.5))),
                UsageError);
 }
