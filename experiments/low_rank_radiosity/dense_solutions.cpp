@@ -13,7 +13,7 @@
 namespace radiosity {
 namespace {
 
-double mean_of(const std::vector<double>& errors) {
+double mean_over_lights(const std::vector<double>& errors) {
   return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 
@@ -38,9 +38,10 @@ std::optional<DenseErrors> DenseSolutions::compare(const Segments& V, const Tall
   if (static_cast<double>(Y.rows()) > options_.largest_dense_error) return std::nullopt;
   const Solution& dense = solution(Y.rows(), monitor);
   const Field B = precomputed_answer(V, Y, dense.E);
-  return DenseErrors{mean_of(relative_errors(dense.mesh, B, dense.B)),
-                     mean_of(relative_errors(dense.mesh, Field(B - dense.E), Field(dense.B - dense.E))),
-                     ((B - dense.B).array().abs() / dense.B.array()).maxCoeff()};
+  return DenseErrors{
+      mean_over_lights(relative_errors(dense.mesh, B, dense.B)),
+      mean_over_lights(relative_errors(dense.mesh, Field(B - dense.E), Field(dense.B - dense.E))),
+      ((B - dense.B).array().abs() / dense.B.array()).maxCoeff()};
 }
 
 const DenseSolutions::Solution& DenseSolutions::solution(Index n, Monitor& monitor) {
