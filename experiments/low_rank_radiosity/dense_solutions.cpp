@@ -1,21 +1,17 @@
 #include "experiments/low_rank_radiosity/dense_solutions.hpp"
 
 #include "experiments/low_rank_radiosity/cube_meshes.hpp"
+#include "experiments/low_rank_radiosity/error_study_measures.hpp"
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 #include "experiments/reference_solution.hpp"
 #include "foundation/error.hpp"
 #include "kernels/segment_sums.hpp"
 
 #include <memory>
-#include <numeric>
 #include <utility>
 
 namespace radiosity {
 namespace {
-
-double mean_over_lights(const std::vector<double>& errors) {
-  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-}
 
 /// B = E - Y (V' E) for fields in the order of the mesh.
 Field precomputed_answer(const Segments& V, const TallMatrix<float>& Y, const Field& E) {
@@ -38,10 +34,9 @@ std::optional<DenseErrors> DenseSolutions::compare(const Segments& V, const Tall
   if (static_cast<double>(Y.rows()) > options_.largest_dense_error) return std::nullopt;
   const Solution& dense = solution(Y.rows(), monitor);
   const Field B = precomputed_answer(V, Y, dense.E);
-  return DenseErrors{
-      mean_over_lights(relative_errors(dense.mesh, B, dense.B)),
-      mean_over_lights(relative_errors(dense.mesh, Field(B - dense.E), Field(dense.B - dense.E))),
-      ((B - dense.B).array().abs() / dense.B.array()).maxCoeff()};
+  return DenseErrors{mean_of(relative_errors(dense.mesh, B, dense.B)),
+                     mean_of(relative_errors(dense.mesh, Field(B - dense.E), Field(dense.B - dense.E))),
+                     ((B - dense.B).array().abs() / dense.B.array()).maxCoeff()};
 }
 
 const DenseSolutions::Solution& DenseSolutions::solution(Index n, Monitor& monitor) {
