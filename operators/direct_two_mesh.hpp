@@ -28,10 +28,10 @@ struct DirectTwoMesh {
   std::uint64_t rays = 0;
 };
 
-/// The sparse-V operator of a coarse mesh with these factors. F_ep
-/// here is exact for the polygon of a patch, which for meshes that do not fit each other differs a little
-/// from the sum over the patch's elements. `elements` supplies areas and reflectances too. Throws UsageError
-/// where the scene has no coarse mesh of at most k patches.
+/// The sparse-V operator of a coarse mesh with these factors. F_ep here is exact for the polygon of a patch,
+/// which for meshes that do not fit each other differs a little from the sum over the patch's elements.
+/// `elements` supplies areas and reflectances too. Throws UsageError where the scene has no coarse mesh of at
+/// most k patches.
 DirectTwoMesh make_direct_two_mesh(std::shared_ptr<const PatchMesh> elements, const PartitionChoice& choice,
                                    const ElementFactorOptions& options, const std::string& spec,
                                    Monitor& monitor);

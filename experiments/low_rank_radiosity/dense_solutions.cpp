@@ -1,21 +1,17 @@
 #include "experiments/low_rank_radiosity/dense_solutions.hpp"
 
 #include "experiments/low_rank_radiosity/cube_meshes.hpp"
+#include "experiments/low_rank_radiosity/error_study_measures.hpp"
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 #include "experiments/reference_solution.hpp"
 #include "foundation/error.hpp"
 #include "kernels/segment_sums.hpp"
 
 #include <memory>
-#include <numeric>
 #include <utility>
 
 namespace radiosity {
 namespace {
-
-double mean_of(const std::vector<double>& errors) {
-  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-}
 
 /// B = E - Y (V' E) for fields in the order of the mesh.
 Field precomputed_answer(const Segments& V, const TallMatrix<float>& Y, const Field& E) {

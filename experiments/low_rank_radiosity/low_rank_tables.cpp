@@ -72,8 +72,9 @@ void require_memory(const LowRankSize& size, bool with_full) {
          1e-9 * needed, 1e-9 * available_memory());
 }
 
-LowRankTableRow measure_size(const LowRankSize& size, bool with_full, const LowRankTablesOptions& options,
-                             ReadStream& stream, DenseSolutions& dense, Monitor& monitor) {
+LowRankTableRow measure_table_row(const LowRankSize& size, bool with_full,
+                                  const LowRankTablesOptions& options, ReadStream& stream,
+                                  DenseSolutions& dense, Monitor& monitor) {
   LowRankTableRow row;
   row.size = size;
   if (entries_of(size) > options.largest_timed) return row;
@@ -123,9 +124,9 @@ LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, Monit
   ReadStream stream(options.stream_bytes);
   DenseSolutions dense(options);
   for (const LowRankSize& size : options.sizes)
-    tables.rows.push_back(measure_size(size, true, options, stream, dense, monitor));
+    tables.rows.push_back(measure_table_row(size, true, options, stream, dense, monitor));
   for (const LowRankSize& size : options.large_sizes)
-    tables.large_rows.push_back(measure_size(size, false, options, stream, dense, monitor));
+    tables.large_rows.push_back(measure_table_row(size, false, options, stream, dense, monitor));
   tables.load_after = load_average();
   tables.resident_bytes = most_resident_bytes();
   return tables;

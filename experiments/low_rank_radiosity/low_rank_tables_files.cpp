@@ -10,7 +10,7 @@
 namespace radiosity {
 namespace {
 
-Json timing_json(const std::optional<Timing>& timing) {
+Json optional_timing_json(const std::optional<Timing>& timing) {
   if (!timing) return nullptr;
   return {{"min_seconds", timing->min}, {"median_seconds", timing->median}};
 }
@@ -18,10 +18,10 @@ Json timing_json(const std::optional<Timing>& timing) {
 Json frame_json(const FrameTimes& frame) {
   return {{"threads", frame.threads},
           {"columns", frame.columns},
-          {"full_sums", timing_json(frame.full_sums)},
-          {"sparse_sums", timing_json(frame.sparse_sums)},
-          {"full_frame", timing_json(frame.full_frame)},
-          {"sparse_frame", timing_json(frame.sparse_frame)},
+          {"full_sums", optional_timing_json(frame.full_sums)},
+          {"sparse_sums", optional_timing_json(frame.sparse_sums)},
+          {"full_frame", optional_timing_json(frame.full_frame)},
+          {"sparse_frame", optional_timing_json(frame.sparse_frame)},
           {"full_bandwidth", or_null(frame.full_bandwidth)},
           {"sparse_bandwidth", or_null(frame.sparse_bandwidth)}};
 }
