@@ -3,6 +3,7 @@
 #include "apps/terminal_monitor.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
+#include "experiments/low_rank_radiosity/coherence_pictures.hpp"
 #include "experiments/low_rank_radiosity/error_study.hpp"
 #include "experiments/machine.hpp"
 #include "experiments/report.hpp"
@@ -81,9 +82,22 @@ ReportSection run_low_rank_errors(const ReproduceOptions& options, const std::st
   return low_rank_errors(options.folder, command, study, program.operators, monitor);
 }
 
-constexpr std::array<Experiment, 4> experiments = {{{"first-light", run_first_light},
+ReportSection run_low_rank_pictures(const ReproduceOptions& options, const std::string& command,
+                                    const Program&, Monitor& monitor) {
+  CoherencePictureOptions pictures;
+  if (options.full) {
+    pictures.view_patches = 3300;
+    pictures.directions = 1024;
+    pictures.picture_size = 840;
+  }
+  pictures.seed = options.run.seed;
+  return low_rank_pictures(options.folder, command, pictures, monitor);
+}
+
+constexpr std::array<Experiment, 5> experiments = {{{"first-light", run_first_light},
                                                     {"solvers", run_solvers},
                                                     {"hard-cases", run_hard_case_tables},
+                                                    {"low-rank-pictures", run_low_rank_pictures},
                                                     {"low-rank-errors", run_low_rank_errors}}};
 
 void require_known_tables(const std::vector<std::string>& tables) {
@@ -139,7 +153,7 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   const auto options = std::make_shared<ReproduceOptions>();
   command
       ->add_option("TABLE", options->tables,
-                   "first-light, solvers, hard-cases, low-rank-errors; default: all")
+                   "first-light, solvers, hard-cases, low-rank-pictures, low-rank-errors; default: all")
       ->option_text(" ");
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")
