@@ -3,6 +3,7 @@
 #include "apps/terminal_monitor.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
+#include "experiments/low_rank_radiosity/coherence_pictures.hpp"
 #include "experiments/low_rank_radiosity/error_study.hpp"
 #include "experiments/low_rank_radiosity/low_rank_tables.hpp"
 #include "experiments/machine.hpp"
@@ -96,9 +97,22 @@ ReportSection run_low_rank_tables(const ReproduceOptions& options, const std::st
   return low_rank_tables(options.folder, command, study, monitor);
 }
 
-constexpr std::array<Experiment, 5> experiments = {{{"first-light", run_first_light},
+ReportSection run_low_rank_pictures(const ReproduceOptions& options, const std::string& command,
+                                    const Program&, Monitor& monitor) {
+  CoherencePictureOptions pictures;
+  if (options.full) {
+    pictures.view_patches = 3300;
+    pictures.directions = 1024;
+    pictures.picture_size = 840;
+  }
+  pictures.seed = options.run.seed;
+  return low_rank_pictures(options.folder, command, pictures, monitor);
+}
+
+constexpr std::array<Experiment, 6> experiments = {{{"first-light", run_first_light},
                                                     {"solvers", run_solvers},
                                                     {"hard-cases", run_hard_case_tables},
+                                                    {"low-rank-pictures", run_low_rank_pictures},
                                                     {"low-rank-errors", run_low_rank_errors},
                                                     {"low-rank-tables", run_low_rank_tables}}};
 
@@ -155,7 +169,8 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   const auto options = std::make_shared<ReproduceOptions>();
   command
       ->add_option("TABLE", options->tables,
-                   "first-light, solvers, hard-cases, low-rank-errors, low-rank-tables; default: all")
+                   "first-light, solvers, hard-cases, low-rank-pictures, low-rank-errors, low-rank-tables; "
+                   "default: all")
       ->option_text(" ");
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")
