@@ -2,6 +2,7 @@
 
 #include "foundation/error.hpp"
 #include "operators/closed_operator.hpp"
+#include "operators/global_operator.hpp"
 
 #include <fmt/ranges.h>
 
@@ -44,9 +45,11 @@ std::unique_ptr<LinearOperator> OperatorRegistry::make(const std::string& spec_t
     if (entry.name != spec.name()) continue;
     check_form_factors(form_factors);
     const ClosureChoice closure = ClosureChoice::take(spec, entry.closure);
+    const bool global = spec.flag("global");
     auto made = entry.make(spec, form_factors);
     spec.finish();
-    return close_operator(std::move(made), closure, form_factors);
+    made = close_operator(std::move(made), closure, form_factors);
+    return global ? std::make_unique<GlobalOperator>(std::move(made)) : std::move(made);
   }
   fail<UsageError>("there is no operator '{}' (in '{}'); known are {}", spec.name(), spec_text,
                    fmt::join(names, ", "));

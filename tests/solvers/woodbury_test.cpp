@@ -3,6 +3,7 @@
 #include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
 #include "room_operators.hpp"
+#include "separate_spheres.hpp"
 #include "solvers/woodbury.hpp"
 
 #include <gtest/gtest.h>
@@ -11,20 +12,6 @@
 
 namespace radiosity::testing {
 namespace {
-
-/// `count` spheres of n patches each that do not see one another: F has rank `count` exactly.
-Room separate_spheres(int count, Index n, double reflectance) {
-  Room all;
-  all.area.resize(count * n);
-  all.reflectance = Eigen::MatrixXd::Constant(count * n, 1, reflectance);
-  all.kernel = Eigen::MatrixXd::Zero(count * n, count * n);
-  for (Index k = 0; k < count; ++k) {
-    const Room sphere = sphere_cavity(n, static_cast<std::uint64_t>(k) + 5, reflectance);
-    all.area.segment(k * n, n) = sphere.area;
-    all.kernel.block(k * n, k * n, n, n) = sphere.kernel;
-  }
-  return all;
-}
 
 /// ||E - (I - T) B|| / (||B|| u) with the operator's own T.
 double backward_error_with(const LinearOperator& transport, const Eigen::VectorXd& root_area, const Field& E,
@@ -40,8 +27,8 @@ TEST(Woodbury, IsBackwardStableUpToConditionTwoToTheTwelveDecades) {
     for (const double condition : {2e1, 2e3, 2e6, 2e9, 2e12}) {
       const Room room = separate_spheres(rank, rank == 1 ? 100 : 4, 1 - 1 / condition);
       for (const char* norm : {"plain", "area"}) {
-        const auto transport = cpu_operators().make(
-            fmt::format("svd:k={},norm={},storage=f64", rank, norm), form_factors_of(room));
+        const auto transport = cpu_operators().make(fmt::format("svd:k={},norm={},storage=f64", rank, norm),
+                                                    form_factors_of(room));
         Woodbury solver({*transport, room.root_area(), {.tolerance = 1e-17, .max_products = 2}});
         const Field E = random_lights(room.size(), 2, 3);
         solver.start(E);
@@ -61,8 +48,7 @@ TEST(Woodbury, SinglePrecisionIsWithinItsCondition) {
     const Room room = separate_spheres(8, 30, 1 - 1 / condition);
     const Field E = random_lights(room.size(), 1, 4);
     const auto answer = [&](const std::string& storage) {
-      const auto transport =
-          cpu_operators().make("svd:k=8,storage=" + storage, form_factors_of(room));
+      const auto transport = cpu_operators().make("svd:k=8,storage=" + storage, form_factors_of(room));
       Woodbury solver({*transport, room.root_area(), {.tolerance = 1e-3}});
       return Field(solve(solver, E));
     };
