@@ -123,7 +123,7 @@ void add_compare_command(CLI::App& app, const Program& program) {
       ->option_text("KIND:N,...");
   command
       ->add_option("--solver", options->comparison.solver,
-                   "default cg where the operator is symmetric, else gmres")
+                   "default none where the operator maps E to B, cg where it is symmetric, else gmres")
       ->option_text("SPEC");
   command
       ->add_option("--tolerance", options->comparison.solver_options.tolerance,

@@ -20,12 +20,12 @@ struct Solution {
   Field radiosity;   ///< n x channels, W/m^2
   Field irradiance;  ///< the same, F B
   std::string operator_name;
-  std::string solver_name;
-  std::size_t bytes = 0;  ///< of the operator
+  std::string solver_name;  ///< empty where the operator answers by itself
+  std::size_t bytes = 0;    ///< of the operator
   double build_seconds = 0;
   double solve_seconds = 0;
   int products = 0;
-  double residual = 0;
+  double residual = 0;  ///< NaN where the operator answers by itself
 };
 
 /// Builds the operator and steps the solver to its end; `monitor` may cancel between steps.

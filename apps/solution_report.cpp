@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 
 namespace radiosity {
@@ -85,8 +86,11 @@ void print_solution(const FormFactors& form_factors, const SolutionReport& repor
                quality.closure, quality.row_sum_min, quality.row_sum_max, quality.seconds);
   fmt::print("operator   {}, {}, built in {:.3g} s\n", solution.operator_name,
              byte_text(static_cast<double>(solution.bytes)), solution.build_seconds);
-  fmt::print("solver     {}, {} products, residual {:.2g}, {:.3g} s\n", solution.solver_name,
-             solution.products, solution.residual, solution.solve_seconds);
+  if (solution.solver_name.empty())
+    fmt::print("solver     none: the operator answers by itself, {:.3g} s\n", solution.solve_seconds);
+  else
+    fmt::print("solver     {}, {} products, residual {:.2g}, {:.3g} s\n", solution.solver_name,
+               solution.products, solution.residual, solution.solve_seconds);
   if (report.certificate) print_certificate(*report.certificate);
   fmt::print("\n{:<24} {:>12}   {}\n", "group", "area", "mean radiosity, W/m^2");
   for (const GroupSummary& group : report.groups)
@@ -106,13 +110,13 @@ void write_solution_json(const std::filesystem::path& file, const FormFactors& f
   write_json(file, {{"scene", scene_json(*form_factors.mesh)},
                     {"form_factors", form_factors_json(form_factors.quality)},
                     {"operator", solution.operator_name},
-                    {"solver", solution.solver_name},
+                    {"solver", solution.solver_name.empty() ? Json() : Json(solution.solver_name)},
                     {"device", "cpu"},
                     {"bytes", solution.bytes},
                     {"build_seconds", solution.build_seconds},
                     {"solve_seconds", solution.solve_seconds},
                     {"iterations", solution.products},
-                    {"residual", solution.residual},
+                    {"residual", std::isnan(solution.residual) ? Json() : Json(solution.residual)},
                     {"certificate", certificate_json(report.certificate)},
                     {"groups", groups},
                     {"energy", energy},

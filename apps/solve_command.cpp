@@ -141,7 +141,7 @@ void add_solve_command(CLI::App& app, const Program& program) {
       ->option_text("SPEC");
   command
       ->add_option("--solver", options->request.solver_spec,
-                   "default cg where the operator is symmetric, else gmres")
+                   "default none where the operator maps E to B, cg where it is symmetric, else gmres")
       ->option_text("SPEC");
   command
       ->add_option("--tolerance", options->request.tolerance, "the solver's relative residual; default 1e-6")

@@ -81,6 +81,7 @@ class Contest {
     if (!options.operators.empty()) return options.operators;
     std::vector<std::string> all;
     for (const OperatorEntry& entry : registry.entries()) {
+      if (entry.cubic) continue;
       all.push_back(entry.defaults);
       all.insert(all.end(), entry.variants.begin(), entry.variants.end());
     }

@@ -12,7 +12,7 @@ struct ApplyBenchmarkOptions {
   Index size = 16384;                   ///< n of the synthetic kernel, in which every entry is present
   std::vector<Index> columns = {1, 3};  ///< columns multiplied at once
   std::vector<std::string>
-      operators;  ///< specs; empty: the defaults of every registered one, and dense:f32, dense:f16
+      operators;  ///< specs; empty: the defaults and variants of every registered one that is not cubic
   std::vector<int> threads = {1, 0};  ///< measured one after the other; 0: all that are allowed
   double seconds = 10;                ///< for each number of threads
   std::size_t stream_bytes = std::size_t{1}

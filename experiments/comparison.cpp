@@ -105,7 +105,7 @@ void summarize(const std::vector<double>& errors, std::optional<double>& mean, s
 
 void measure_errors(const Task& task, const LinearOperator& transport, const Field& radiosity,
                     ComparisonErrors& errors) {
-  if (task.form_factors.patch_count() <= task.options.largest_measured)
+  if (!transport.global() && task.form_factors.patch_count() <= task.options.largest_measured)
     errors.operator_frobenius = relative_frobenius_error(transport, task.form_factors, task.monitor);
   if (!task.reference) return;
   const Field& emission = task.lights.emission;
@@ -113,6 +113,15 @@ void measure_errors(const Task& task, const LinearOperator& transport, const Fie
             errors.radiosity_max);
   summarize(relative_errors(task.mesh(), Field(radiosity - emission), Field(*task.reference - emission)),
             errors.indirect_mean, errors.indirect_max);
+}
+
+/// What an operator that stands for T says of T.
+void measure_transport(const Task& task, const LinearOperator& transport, ComparisonResult& result) {
+  if (const auto range = row_sum_range(transport, task.form_factors)) {
+    result.row_sum_min = range->first;
+    result.row_sum_max = range->second;
+  }
+  result.spectral_radius = bound_spectral_radius(transport, power_steps).estimate;
 }
 
 ComparisonResult examine(const Task& task, const std::string& spec) {
@@ -129,11 +138,7 @@ ComparisonResult examine(const Task& task, const std::string& spec) {
   if (task.certifier != nullptr)
     result.certificate = task.certifier->certify(task.lights.emission, radiosity, task.reference);
   result.remark = transport->remark();
-  if (const auto range = row_sum_range(*transport, task.form_factors)) {
-    result.row_sum_min = range->first;
-    result.row_sum_max = range->second;
-  }
-  result.spectral_radius = bound_spectral_radius(*transport, power_steps).estimate;
+  if (!transport->global()) measure_transport(task, *transport, result);
   return result;
 }
 

@@ -18,7 +18,7 @@ Json timing_json(const Timing& timing) {
 Json result_json(const ComparisonResult& result) {
   const ComparisonErrors& errors = result.errors;
   return {{"operator", result.spec},
-          {"solver", result.solver},
+          {"solver", result.solver.empty() ? Json() : Json(result.solver)},
           {"device", "cpu"},
           {"renderer", nullptr},               // of a graphics device
           {"device_difference_max", nullptr},  // from the plain arithmetic of this device

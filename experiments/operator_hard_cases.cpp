@@ -19,9 +19,8 @@ using Verdict = HardCaseOutcome::Verdict;
 
 std::unique_ptr<LinearOperator> make(const HardCaseSubject& subject, const FormFactors& form_factors,
                                      const std::string& more_keys = {}) {
-  std::string spec = subject.spec;
-  if (!more_keys.empty()) spec += (spec.find(':') == std::string::npos ? ":" : ",") + more_keys;
-  return subject.operators.make(spec, form_factors);
+  return subject.operators.make(more_keys.empty() ? subject.spec : with_keys(subject.spec, more_keys),
+                                form_factors);
 }
 
 Field image_of(const LinearOperator& transport, const Field& X) {
@@ -36,8 +35,8 @@ Eigen::VectorXd row_sums(const LinearOperator& transport, const FormFactors& for
          form_factors.mesh->reflectance(0, 0);
 }
 
-/// ||B - B~|| / bound for the answer that conjugate gradients give with the operator, the bound from the true
-/// kernel.
+/// ||B - B~|| / bound for the operator's answer, its own or by the solver that is its default, the bound from
+/// the true kernel.
 double error_over_bound(const HardCaseSubject& subject, const FormFactors& form_factors,
                         const Field& emission, const Field& truth, int* products = nullptr) {
   const auto transport = make(subject, form_factors);
@@ -109,9 +108,11 @@ HardCaseOutcome exact_zeros(const HardCaseSubject& subject) {
     const std::string failure = check_exact_zeros(*transport, own_entries(*transport));
     if (!failure.empty()) return HardCaseOutcome::of_failure(failure);
     const Eigen::VectorXd rows = scene.row_sums();
-    const Field image = image_of(*transport, Field::Ones(transport->size(), transport->channels()));
+    const Field ones = Field::Ones(transport->size(), transport->channels());
+    Field reflected = image_of(*transport, ones);
+    if (transport->global()) reflected -= ones;
     const HardCaseOutcome outcome =
-        unwanted_light(*transport, share_in(image, [&](Index i) { return rows[i] == 0; }));
+        unwanted_light(*transport, share_in(reflected, [&](Index i) { return rows[i] == 0; }));
     if (outcome.ratio.value_or(0) > worst.ratio.value_or(0)) worst = outcome;
   }
   return worst;
@@ -154,7 +155,19 @@ HardCaseOutcome certificates(const HardCaseSubject& subject) {
   return HardCaseOutcome::of_ratio(worst);
 }
 
-/// O5: row sums to 1e-6 where entries or a closure give them; else what they are off by.
+/// What is missing or too much in the energy balance of an operator that maps E to B, for E = 1 on all
+/// patches and relative to it: B - E is what arrives at patches times their reflectance.
+double imbalance(const LinearOperator& global, const FormFactors& form_factors) {
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(global.size());
+  const Eigen::VectorXd B = image_of(global, ones.replicate(1, global.channels())).col(0);
+  const Eigen::VectorXd arriving =
+      form_factors.row_sums().cwiseProduct(B);  // A_j sum_i F_ji = sum_i A_i F_ij
+  const Eigen::VectorXd& area = form_factors.mesh->area;
+  return std::fabs(area.dot(B - ones - form_factors.mesh->reflectance(0, 0) * arriving)) / area.sum();
+}
+
+/// O5: row sums to 1e-6 where entries or a closure give them; else what they are off by. Of an operator that
+/// maps E to B, the energy balance of its answers.
 HardCaseOutcome energy(const HardCaseSubject& subject) {
   constexpr double allowed = 1e-6;
   double worst = 0;
@@ -164,16 +177,23 @@ HardCaseOutcome energy(const HardCaseSubject& subject) {
         traced_scene("rooms:n=2,door=0.3", 120, 0.8)}) {
     const auto transport = make(subject, scene);
     closed = closed || transport->describe().find("closure=") != std::string::npos;
-    worst = std::max(worst, (row_sums(*transport, scene) - scene.row_sums()).cwiseAbs().maxCoeff());
+    worst = std::max(worst, transport->global()
+                                ? imbalance(*transport, scene)
+                                : (row_sums(*transport, scene) - scene.row_sums()).cwiseAbs().maxCoeff());
   }
   if (worst > allowed && !closed) return {Verdict::reported, worst, {}};
   return HardCaseOutcome::of_ratio(worst / allowed);
 }
 
-/// R2: a bound on the spectral radius that holds, and Neumann's iteration only where it is below 1.
+/// R2: a bound on the spectral radius that holds, and Neumann's iteration only where it is below 1: never
+/// with an operator that maps E to B.
 HardCaseOutcome spectral_radius(const HardCaseSubject& subject) {
   const FormFactors room = traced_scene("cube", 96, 0.999);
   const auto transport = make(subject, room);
+  if (transport->global()) {
+    const auto taken = subject.solvers.make("neumann", {*transport, room.mesh->area.cwiseSqrt(), {}});
+    return HardCaseOutcome::of_failure(taken->describe() + " took an operator that is not T");
+  }
   const SpectralRadius bound = bound_spectral_radius(*transport);
   Field x = Field::Ones(transport->size(), transport->channels());
   double growth = 0;

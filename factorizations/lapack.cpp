@@ -108,6 +108,17 @@ LuFactors::LuFactors(MatrixXd matrix) : triangles_(std::move(matrix)) {
     LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, triangles_.data(), n, norm, &reciprocal_condition_);
 }
 
+bool LuFactors::has_positive_determinant() const {
+  bool positive = true;
+  for (Index k = 0; k < size(); ++k) {
+    const double pivot = triangles_(k, k);
+    if (pivot == 0) return false;
+    const bool exchanged = pivots_[static_cast<std::size_t>(k)] != k + 1;
+    if (exchanged != (pivot < 0)) positive = !positive;
+  }
+  return positive;
+}
+
 MatrixXd LuFactors::solve(MatrixXd X) const {
   const lapack_int n = as_lapack(size());
   const BlasThreads threads(threads_for(std::min(size(), static_cast<Index>(X.cols()))));

@@ -44,6 +44,8 @@ class LuFactors {
   explicit LuFactors(Eigen::MatrixXd matrix);
   Eigen::Index size() const { return triangles_.rows(); }
   double reciprocal_condition() const { return reciprocal_condition_; }
+  /// Whether det A > 0, as far as rounding tells.
+  bool has_positive_determinant() const;
   /// A^{-1} X.
   Eigen::MatrixXd solve(Eigen::MatrixXd X) const;
 

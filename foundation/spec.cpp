@@ -132,4 +132,8 @@ void Spec::finish() const {
   }
 }
 
+std::string with_keys(const std::string& spec, const std::string& keys) {
+  return spec + (spec.find(':') == std::string::npos ? ":" : ",") + keys;
+}
+
 }  // namespace radiosity

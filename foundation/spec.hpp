@@ -53,4 +53,8 @@ class Spec {
   std::vector<std::string> known_;
 };
 
+/// The spec with further keys: "csr" and "dense:f16" with "closure=rows" are "csr:closure=rows" and
+/// "dense:f16,closure=rows".
+std::string with_keys(const std::string& spec, const std::string& keys);
+
 }  // namespace radiosity

@@ -18,11 +18,6 @@ namespace radiosity {
 
 namespace {
 
-std::string closed_spec(const LinearOperator& approximation, const std::string& keys) {
-  const std::string spec = approximation.describe();
-  return spec + (spec.find(':') == std::string::npos ? ":" : ",") + keys;
-}
-
 Eigen::VectorXd kernel_row_sums(const KernelOperator& kernel) {
   Field sums(kernel.size(), 1);
   kernel.apply_kernel(kernel.root_area(), sums);
@@ -67,7 +62,7 @@ class RowClosedOperator final : public LinearOperator {
     bytes.parts.emplace_back("closure", sizeof(double) * static_cast<std::size_t>(size()));
     return bytes;
   }
-  std::string describe() const override { return closed_spec(*approximation_, "closure=rows"); }
+  std::string describe() const override { return with_keys(approximation_->describe(), "closure=rows"); }
   double product_roundoff() const override { return approximation_->product_roundoff(); }
   std::string remark() const override {
     if (empty_rows_ == 0) return {};
@@ -90,7 +85,7 @@ class RowClosedOperator final : public LinearOperator {
 /// What closures that stay symmetric share.
 class ClosedKernelOperator : public KernelOperator {
  public:
-  std::string describe() const final { return closed_spec(*approximation_, keys_); }
+  std::string describe() const final { return with_keys(approximation_->describe(), keys_); }
   double product_roundoff() const final { return approximation_->product_roundoff(); }
 
  protected:
@@ -308,6 +303,9 @@ ClosureChoice ClosureChoice::take(Spec& spec, const std::string& fallback) {
 std::unique_ptr<LinearOperator> close_operator(std::unique_ptr<LinearOperator> approximation,
                                                const ClosureChoice& choice, const FormFactors& form_factors) {
   OperatorClosure kind = choice.kind;
+  if (approximation->global() && kind != OperatorClosure::none)
+    fail<UsageError>("{} restores row sums of T, and {} maps E to B: leave the closure away", choice.text,
+                     approximation->describe());
   std::string keys = choice.text;
   if (kind == OperatorClosure::automatic) {
     kind = choose_closure(*approximation, form_factors);

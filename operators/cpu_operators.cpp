@@ -2,6 +2,7 @@
 #include "operators/cur_operator.hpp"
 #include "operators/dct_operator.hpp"
 #include "operators/dense_operator.hpp"
+#include "operators/neumann_sparse_operator.hpp"
 #include "operators/operator_registry.hpp"
 #include "operators/qr_operator.hpp"
 #include "operators/quantized_operator.hpp"
@@ -42,7 +43,8 @@ OperatorRegistry cpu_operators() {
        .defaults = "svd:k=64,norm=plain,storage=f32,method=dense",
        .make = make_svd_operator,
        .lossy = true,
-       .variants = {"svd:k=32,norm=area", "svd:k=8,method=lanczos"}},
+       .cubic = true,
+       .variants = {"svd:k=32,norm=area", "svd:k=8,method=lanczos", "svd:k=32,global=1"}},
       {.name = "rsvd",
        .summary = "a randomized SVD of rank k, in the plain or the area norm; from products",
        .defaults = "rsvd:k=64,norm=plain,storage=f32,power=1,oversampling=10,seed=1",
@@ -85,6 +87,13 @@ OperatorRegistry cpu_operators() {
        .make = make_dct_operator,
        .lossy = true,
        .variants = {"dct:k=32,norm=area"}},
+      {.name = "neumann-sparse",
+       .summary = "E -> B by the sum of all bounces, the small entries of each dropped",
+       .defaults = "neumann-sparse:threshold=1e-05,bounces=1000",
+       .make = make_neumann_sparse_operator,
+       .lossy = true,
+       .cubic = true,
+       .variants = {"neumann-sparse:threshold=1e-3"}},
   });
 }
 

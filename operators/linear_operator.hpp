@@ -64,6 +64,10 @@ class LinearOperator {
   /// Whether it is a symmetric kernel between its diagonals; then it is a KernelOperator, and CG applies.
   virtual bool symmetric() const { return false; }
 
+  /// Whether it maps E to B, as an approximation of G = (I - T)^-1 or of a sum of bounces does, and not to T
+  /// E: it needs no solver and takes none.
+  virtual bool global() const { return false; }
+
   virtual Certificate certificate() const { return {}; }
 
   /// Unit roundoff of the arithmetic of its products: what repeats of it differ by if sums are done in

@@ -4,6 +4,7 @@
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,8 @@ class LowRankFactors {
   virtual void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const = 0;
   /// R, n x channels.
   virtual const Eigen::MatrixXd& albedo() const = 0;
+  /// What multiply_right_transposed reads.
+  virtual std::size_t right_bytes() const = 0;
 };
 
 /// T = R U V' with U and V of n x k (document 004): 2 n k multiplications a column. U and V know nothing of
@@ -41,6 +44,7 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
     multiply_transposed(V_, X, C, instructions_);
   }
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
+  std::size_t right_bytes() const override { return V_.entry_bytes(); }
 
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }
@@ -73,6 +77,9 @@ class LowRankKernelOperator final : public KernelOperator, public LowRankFactors
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
   void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override;
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
+  std::size_t right_bytes() const override {
+    return Q_.entry_bytes() + static_cast<std::size_t>(size()) * sizeof(double);
+  }
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }
   Certificate certificate() const override { return certificate_; }

@@ -3,6 +3,7 @@
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/random.hpp"
+#include "operators/global_operator.hpp"
 #include "operators/low_rank_operator.hpp"
 
 #include <algorithm>
@@ -362,6 +363,9 @@ OperatorReference own_entries(const LinearOperator& transport) {
   if (const auto* factors = dynamic_cast<const LowRankFactors*>(&transport))
     reference.entry_error +=
         4 * static_cast<double>(n + factors->rank()) * reference.unit_roundoff * factor_products(*factors, n);
+  if (const auto* global = dynamic_cast<const GlobalOperator*>(&transport))
+    reference.entry_error +=
+        4 * static_cast<double>(n + global->rank()) * reference.unit_roundoff * global->term_sizes();
   return reference;
 }
 

@@ -2,6 +2,7 @@
 
 #include "foundation/error.hpp"
 #include "operators/closed_operator.hpp"
+#include "operators/global_operator.hpp"
 
 #include <fmt/ranges.h>
 
@@ -58,9 +59,11 @@ std::unique_ptr<LinearOperator> OperatorRegistry::make(const std::string& spec_t
   const OperatorEntry& found = entry(spec);
   check_form_factors(form_factors, needs_form_factors(spec_text));
   const ClosureChoice closure = ClosureChoice::take(spec, found.closure);
+  const bool global = spec.flag("global");
   auto made = found.make(spec, form_factors);
   spec.finish();
-  return close_operator(std::move(made), closure, form_factors);
+  made = close_operator(std::move(made), closure, form_factors);
+  return global ? std::make_unique<GlobalOperator>(std::move(made)) : std::move(made);
 }
 
 }  // namespace radiosity

@@ -19,6 +19,7 @@ struct OperatorEntry {
   std::string closure = "none";  ///< unless the spec names another (operators/closed_operator.hpp)
   bool lossy = false;   ///< is further from T than the rounding of its storage: measured by its certificate
   bool direct = false;  ///< with factors=direct in its spec it needs the mesh of the form factors only, not F
+  bool cubic = false;   ///< takes O(n^3) to build: left out of benchmarks unless it is named
   std::vector<std::string> variants = {};  ///< further specs that tests and benchmarks take along
 };
 
@@ -38,8 +39,9 @@ class OperatorRegistry {
   /// UsageError for unknown names.
   bool needs_form_factors(const std::string& spec) const;
 
-  /// Parses and builds. Every spec may name a closure, as in "dense:f16,closure=symmetric". Throws UsageError
-  /// for unknown names and keys, listing the known ones.
+  /// Parses and builds. Every spec may name a closure, as in "dense:f16,closure=symmetric", and every one of
+  /// low rank may ask for its global operator, as in "svd:k=64,global=1". Throws UsageError for unknown names
+  /// and keys, listing the known ones.
   std::unique_ptr<LinearOperator> make(const std::string& spec, const FormFactors& form_factors) const;
 
  private:

@@ -26,4 +26,12 @@ void add_product(const Eigen::ArrayXXd& diagonals, const ConstFieldRef& product,
   }
 }
 
+void add_answer(double alpha, const ConstFieldRef& E, const ConstFieldRef& reflected, double beta,
+                FieldRef Y) {
+  if (beta == 0)
+    Y = alpha * (E + reflected);
+  else
+    Y = alpha * (E + reflected) + beta * Y;
+}
+
 }  // namespace radiosity

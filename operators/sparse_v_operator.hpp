@@ -26,6 +26,9 @@ class SparseVOperator final : public MatrixOperator, public LowRankFactors {
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
   void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override;
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
+  std::size_t right_bytes() const override {
+    return V_.offset_bytes() + V_.order_bytes() + V_.weight_bytes();
+  }
 
   /// Y = U C, and C = V' X, for fields sorted by patch.
   void multiply_left_sorted(const ConstFieldRef& C, FieldRef Y) const;

@@ -61,9 +61,19 @@ void TwoSidedOperator<Scalar>::multiply_right_transposed(const ConstFieldRef& Y,
 }
 
 template <typename Scalar>
+std::size_t TwoSidedOperator<Scalar>::indicator_bytes() const {
+  return W_.weight_bytes() + W_.order_bytes() + W_.offset_bytes();
+}
+
+template <typename Scalar>
+std::size_t TwoSidedOperator<Scalar>::right_bytes() const {
+  return Z_.entry_bytes() + indicator_bytes() + static_cast<std::size_t>(size()) * sizeof(double);
+}
+
+template <typename Scalar>
 ByteCount TwoSidedOperator<Scalar>::bytes() const {
   return {{{"Z", Z_.entry_bytes()},
-           {"indicators", W_.weight_bytes() + W_.order_bytes() + W_.offset_bytes()},
+           {"indicators", indicator_bytes()},
            {"diagonals", diagonal_bytes(size(), channels())}}};
 }
 

@@ -23,6 +23,7 @@ class TwoSidedOperator final : public KernelOperator, public LowRankFactors {
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
   void multiply_right_transposed(const ConstFieldRef& Y, FieldRef C) const override;
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
+  std::size_t right_bytes() const override;
 
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }
@@ -33,6 +34,7 @@ class TwoSidedOperator final : public KernelOperator, public LowRankFactors {
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override;
 
  private:
+  std::size_t indicator_bytes() const;
   // W' Y and Z' Y.
   Field components(const ConstFieldRef& Y) const;
   // Z C1 + W C2 for C = [C1; C2].

@@ -39,7 +39,8 @@ class Solver {
   /// B so far, n x c, W/m^2.
   virtual const Field& radiosity() const = 0;
 
-  /// Largest relative residual of any column as last computed.
+  /// Largest relative residual of any column as last computed; NaN where T is not known that it is computed
+  /// with (DirectAnswer).
   virtual double residual() const = 0;
 
   /// Products with the operator used so far for the column that needed most (all columns of a product count
@@ -58,6 +59,13 @@ struct SolverOptions {
 
 /// Runs a solver to its end; returns B.
 const Field& solve(Solver& solver, const Field& emission);
+
+/// Throws UsageError, which opens with `name`, unless the emission is n x c with c a multiple of the
+/// channels, and finite.
+void check_emission(const std::string& name, const LinearOperator& transport, const Field& emission);
+
+/// Throws UsageError for an operator that answers by itself; `name` is the solver's.
+void require_transport(const std::string& name, const LinearOperator& transport);
 
 /// The area norm ||X_j||_A = sqrt(sum_i A_i X_ij^2) of each column, given A^{1/2}.
 Eigen::RowVectorXd area_norms(const Eigen::VectorXd& root_area, const ConstFieldRef& X);

@@ -2,6 +2,7 @@
 
 #include "foundation/error.hpp"
 #include "solvers/conjugate_gradients.hpp"
+#include "solvers/direct_answer.hpp"
 #include "solvers/gauss_seidel.hpp"
 #include "solvers/gmres.hpp"
 #include "solvers/lu.hpp"
@@ -54,8 +55,11 @@ const std::string& SolverRegistry::exact_operator(const std::string& spec) const
 }
 
 std::unique_ptr<Solver> SolverRegistry::make(const std::string& text, const SolverProblem& problem) const {
+  if (text.empty() && problem.transport.global()) return std::make_unique<DirectAnswer>(problem.transport);
   Spec spec = Spec::parse(!text.empty() ? text : problem.transport.symmetric() ? "cg" : "gmres");
-  std::unique_ptr<Solver> solver = entry(spec.name()).make(spec, problem);
+  const SolverEntry& chosen = entry(spec.name());
+  require_transport(chosen.name, problem.transport);
+  std::unique_ptr<Solver> solver = chosen.make(spec, problem);
   spec.finish();
   return solver;
 }

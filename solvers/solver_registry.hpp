@@ -43,9 +43,9 @@ class SolverRegistry {
   /// SolverEntry::exact_operator of the solver that a spec names. Throws UsageError for unknown names.
   const std::string& exact_operator(const std::string& spec) const;
 
-  /// Parses and builds; an empty spec means cg where the operator is symmetric, else gmres.
-  /// Throws UsageError for unknown names and keys, and for a solver that the operator does not allow (cg on
-  /// an unsymmetric one).
+  /// Parses and builds; an empty spec means the operator's own answer where it is global, cg where it is
+  /// symmetric, else gmres. Throws UsageError for unknown names and keys, and for a solver that the operator
+  /// does not allow (cg on an unsymmetric one, any on a global one).
   std::unique_ptr<Solver> make(const std::string& spec, const SolverProblem& problem) const;
 
  private:

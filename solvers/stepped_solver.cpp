@@ -11,6 +11,7 @@ namespace radiosity {
 
 SteppedSolver::SteppedSolver(std::string name, const SolverProblem& problem)
     : name_(std::move(name)), problem_(problem) {
+  require_transport(name_, transport());
   if (size() != transport().size())
     fail<UsageError>("{}: {} areas were given for an operator of {} patches.", name_, size(),
                      transport().size());
@@ -23,18 +24,7 @@ SteppedSolver::SteppedSolver(std::string name, const SolverProblem& problem)
 }
 
 void SteppedSolver::start(const Field& emission) {
-  if (emission.rows() != size())
-    fail<UsageError>("{}: the emission has {} rows where the operator has {} patches.", name_,
-                     emission.rows(), size());
-  if (emission.cols() % channels() != 0)
-    fail<UsageError>("{}: the emission has {} columns, which is no multiple of the {} channels.", name_,
-                     emission.cols(), channels());
-  for (Index j = 0; j < emission.cols(); ++j)
-    for (Index i = 0; i < emission.rows(); ++i)
-      if (!std::isfinite(emission(i, j)))
-        fail<UsageError>("{}: the emission of patch {}, column {} is {}: emissions must be finite.", name_, i,
-                         j, emission(i, j));
-
+  check_emission(name_, transport(), emission);
   emission_ = emission;
   radiosity_ = Field::Zero(emission.rows(), emission.cols());
   emission_norms_ = area_norms(root_area(), emission_);

@@ -2,9 +2,6 @@
 
 #include "foundation/error.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace radiosity {
 namespace {
 
@@ -23,38 +20,13 @@ Woodbury::Woodbury(const SolverProblem& problem)
     : SteppedSolver("woodbury", problem), factors_(require_low_rank(problem.transport)) {}
 
 void Woodbury::begin() {
-  if (capacitances_.empty() || reflectance_ != factors_.albedo()) factor_capacitances();
+  if (!capacitances_ || reflectance_ != factors_.albedo()) {
+    reflectance_ = factors_.albedo();
+    capacitances_.emplace(factors_);
+  }
+  if (capacitances_->singular()) fail_as_singular();
   residuals_ = emission();
   steps_ = 0;
-}
-
-void Woodbury::factor_capacitances() {
-  constexpr Index columns_together = 64;
-  const Index rank = factors_.rank();
-  reflectance_ = factors_.albedo();
-  std::vector<Eigen::MatrixXd> matrices(static_cast<std::size_t>(channels()),
-                                        Eigen::MatrixXd::Identity(rank, rank));
-  for (Index first = 0; first < rank; first += columns_together) {
-    const Index columns = std::min(columns_together, rank - first);
-    Field unit = Field::Zero(rank, columns);
-    unit.middleRows(first, columns).setIdentity();
-    Field left(size(), columns);
-    factors_.multiply_left(unit, left);  // U
-    for (Index channel = 0; channel < channels(); ++channel) {
-      Field product(rank, columns);
-      factors_.multiply_right_transposed(reflectance_.col(channel).asDiagonal() * left, product);
-      matrices[static_cast<std::size_t>(channel)].middleCols(first, columns) -= product;
-    }
-  }
-  capacitances_.clear();
-  for (Eigen::MatrixXd& matrix : matrices) {
-    capacitances_.emplace_back(std::move(matrix));
-    if (capacitances_.back().reciprocal_condition() >=
-        static_cast<double>(std::max<Index>(rank, 1)) * unit_roundoff)
-      continue;
-    capacitances_.clear();
-    fail_as_singular();
-  }
 }
 
 void Woodbury::advance() {
@@ -64,9 +36,8 @@ void Woodbury::advance() {
   Field coefficients(factors_.rank(), fields.cols());
   factors_.multiply_right_transposed(fields, coefficients);
   for (Index k = 0; k < fields.cols(); ++k)
-    coefficients.col(k) =
-        capacitances_[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)] % channels())].solve(
-            coefficients.col(k));
+    coefficients.col(k) = capacitances_->of_channel(columns[static_cast<std::size_t>(k)] % channels())
+                              .solve(coefficients.col(k));
   Field reflected(size(), fields.cols());
   factors_.multiply_left(coefficients, reflected);
   for (Index k = 0; k < fields.cols(); ++k) {

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "factorizations/lapack.hpp"
-#include "operators/low_rank_operator.hpp"
+#include "operators/capacitance.hpp"
 #include "solvers/stepped_solver.hpp"
 
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace radiosity {
 
@@ -29,12 +28,11 @@ class Woodbury final : public SteppedSolver {
  private:
   void begin() override;
   void advance() override;
-  void factor_capacitances();
 
   const LowRankFactors& factors_;
-  std::vector<LuFactors> capacitances_;  ///< one a channel
-  Eigen::MatrixXd reflectance_;          ///< what they were made for
-  Field residuals_;                      ///< E - (I - T) B
+  std::optional<CapacitanceMatrices> capacitances_;
+  Eigen::MatrixXd reflectance_;  ///< what they were made for
+  Field residuals_;              ///< E - (I - T) B
   int steps_ = 0;
 };
 

@@ -178,6 +178,25 @@ TEST(Solve, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(read_npy(folder.path() / "1.npy"), read_npy(folder.path() / "3.npy"));
 }
 
+TEST(Solve, TakesOperatorsThatAnswerByThemselves) {
+  const TemporaryFolder folder;
+  const auto solve = [&](const std::string& spec) {
+    return succeed(
+        {"solve", "cube", "--patches", "54", "--operator", spec, "-o", "B.npy", "--json", "B.json"}, folder);
+  };
+  EXPECT_NE(solve("svd:k=54,storage=f64,global=1").find("answers by itself"), std::string::npos);
+  const Json json = read_json(folder.path() / "B.json");
+  EXPECT_TRUE(json["solver"].is_null());
+  EXPECT_TRUE(json["residual"].is_null());
+  EXPECT_EQ(json["iterations"], 0);
+  EXPECT_LE(json["certificate"]["bound"], 1e-10);
+  const Eigen::MatrixXd B = read_npy(folder.path() / "B.npy");
+  EXPECT_EQ(solve("dense").find("answers by itself"), std::string::npos);
+  EXPECT_LE((B - read_npy(folder.path() / "B.npy")).norm(), 1e-5 * B.norm());
+  solve("neumann-sparse:threshold=0");
+  EXPECT_LE((B - read_npy(folder.path() / "B.npy")).norm(), 1e-5 * B.norm());
+}
+
 TEST(Compare, HasOneResultForEachOperator) {
   const TemporaryFolder folder;
   succeed({"compare", "cube", "--patches", "54", "--operators", "csr", "dense:f32", "--lights",

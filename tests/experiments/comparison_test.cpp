@@ -187,6 +187,25 @@ TEST(Comparison, GatheredFormFactorsAreComparedByGmres) {
   EXPECT_LE(*comparison.results[0].errors.radiosity_max, 1e-5);
 }
 
+TEST(Comparison, OperatorsThatAnswerByThemselvesNeedNoSolver) {
+  const Comparison comparison =
+      run(form_factors_of("cube", 54),
+          {"svd:k=20,storage=f64", "svd:k=20,storage=f64,global=1", "neumann-sparse"}, "area:2,point:1");
+  const ComparisonResult& with_solver = comparison.results[0];
+  const Json results = written(comparison)["results"];
+  for (const std::size_t i : {1, 2}) {
+    EXPECT_EQ(keys(results[i]), keys(results[0]));
+    EXPECT_EQ(results[i]["iterations"], 0);
+    for (const char* key : {"solver", "row_sum_min", "row_sum_max", "spectral_radius"})
+      EXPECT_TRUE(results[i][key].is_null()) << key;
+    EXPECT_TRUE(results[i]["error"]["operator_frobenius"].is_null());
+    EXPECT_GE(results[i]["certificate"]["ratio_min"], 1);
+    EXPECT_LE(results[i]["certificate"]["bound"], 4 * results[i]["error"]["radiosity_max"].get<double>());
+  }
+  EXPECT_NEAR(*comparison.results[1].errors.indirect_max, *with_solver.errors.indirect_max, 1e-5);
+  EXPECT_LT(*comparison.results[2].errors.indirect_max, 0.1 * *with_solver.errors.indirect_max);
+}
+
 TEST(Comparison, WithoutLightsTheSceneLightsItself) {
   const FormFactors form_factors = form_factors_of("cube", 24);
   EXPECT_EQ(run(form_factors, {"dense"}, "").lights.emission, form_factors.mesh->emission);
@@ -211,6 +230,7 @@ TEST(Comparison, AnOperatorThatCannotBeBuiltEndsIt) {
   EXPECT_NE(refusal({"sparse"}).find("csr"), std::string::npos) << "the known ones are listed";
   EXPECT_NE(refusal({}).find("at least one operator"), std::string::npos);
   EXPECT_NE(refusal({"dimmed"}, "cg").find("symmetric kernel"), std::string::npos);
+  EXPECT_NE(refusal({"svd:k=8,global=1"}, "cg").find("leave the solver away"), std::string::npos);
 }
 
 TEST(Comparison, TheTableHasALineForEachOperator) {

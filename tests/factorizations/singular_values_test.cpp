@@ -5,6 +5,7 @@
 #include "hard_matrices.hpp"
 #include "test_ratios.hpp"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -101,6 +102,19 @@ TEST(RandomizedSvd, GivesWhatThereIs) {
   const SingularValues once = randomized_svd(products, {.rank = 7, .seed = 4});
   EXPECT_EQ(once.U, randomized_svd(products, {.rank = 7, .seed = 4}).U);
   EXPECT_NE(once.U, randomized_svd(products, {.rank = 7, .seed = 5}).U);
+}
+
+TEST(LuFactors, KnowTheSignOfTheDeterminant) {
+  for (const Index n : {1, 2, 3, 8, 33})
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      Eigen::MatrixXd matrix = matrix_with_values(n, n, geometric_values(n, 1e3), seed);
+      const bool positive = matrix.determinant() > 0;
+      EXPECT_EQ(LuFactors(matrix).has_positive_determinant(), positive) << n;
+      matrix.row(0) *= -1;
+      EXPECT_EQ(LuFactors(matrix).has_positive_determinant(), !positive) << n;
+    }
+  EXPECT_TRUE(LuFactors(Eigen::MatrixXd(0, 0)).has_positive_determinant());
+  EXPECT_FALSE(LuFactors(Eigen::MatrixXd::Zero(3, 3)).has_positive_determinant());
 }
 
 }  // namespace

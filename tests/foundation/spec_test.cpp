@@ -99,5 +99,10 @@ TEST(Spec, UnknownKeysAreErrorsThatListTheKnownOnes) {
             "'lu:k=3': 'lu' takes no keys, but 'k' is given");
 }
 
+TEST(Spec, TakesFurtherKeys) {
+  EXPECT_EQ(with_keys("csr", "closure=rows"), "csr:closure=rows");
+  EXPECT_EQ(with_keys("dense:f16", "closure=rows"), "dense:f16,closure=rows");
+}
+
 }  // namespace
 }  // namespace radiosity

@@ -28,9 +28,9 @@ TEST(OperatorRegistry, UnknownNamesAndKeysAreErrorsThatListTheKnownOnes) {
       error_of(registry, "dens").rfind("there is no operator 'dens' (in 'dens'); known are dense, csr", 0),
       0);
   EXPECT_EQ(error_of(registry, "dense:f8"),
-            "'dense:f8': key 'f8' is not known; 'dense' knows closure, storage, f64, f32, f16");
+            "'dense:f8': key 'f8' is not known; 'dense' knows closure, global, storage, f64, f32, f16");
   EXPECT_EQ(error_of(registry, "csr:f16"),
-            "'csr:f16': key 'f16' is not known; 'csr' knows closure, storage, f64, f32");
+            "'csr:f16': key 'f16' is not known; 'csr' knows closure, global, storage, f64, f32");
   EXPECT_EQ(error_of(registry, "dense:f16,f32"),
             "'dense:f16,f32': storage is given more than once (f16, f32); choose one");
 }

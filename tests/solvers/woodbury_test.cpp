@@ -3,6 +3,7 @@
 #include "foundation/error.hpp"
 #include "operators/operator_registry.hpp"
 #include "room_operators.hpp"
+#include "separate_spheres.hpp"
 #include "solvers/woodbury.hpp"
 
 #include <gtest/gtest.h>
@@ -11,20 +12,6 @@
 
 namespace radiosity::testing {
 namespace {
-
-/// `count` spheres of n patches each that do not see one another: F has rank `count` exactly.
-Room separate_spheres(int count, Index n, double reflectance) {
-  Room all;
-  all.area.resize(count * n);
-  all.reflectance = Eigen::MatrixXd::Constant(count * n, 1, reflectance);
-  all.kernel = Eigen::MatrixXd::Zero(count * n, count * n);
-  for (Index k = 0; k < count; ++k) {
-    const Room sphere = sphere_cavity(n, static_cast<std::uint64_t>(k) + 5, reflectance);
-    all.area.segment(k * n, n) = sphere.area;
-    all.kernel.block(k * n, k * n, n, n) = sphere.kernel;
-  }
-  return all;
-}
 
 /// ||E - (I - T) B|| / (||B|| u) with the operator's own T.
 double backward_error_with(const LinearOperator& transport, const Eigen::VectorXd& root_area, const Field& E,

@@ -1,0 +1,116 @@
+#include "operators/neumann_sparse_operator.hpp"
+
+#include "foundation/error.hpp"
+#include "kernels/sparse_powers.hpp"
+#include "operators/distinct_reflectances.hpp"
+#include "operators/reflectance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace radiosity {
+namespace {
+
+/// The entries of F that are not zero.
+CsrMatrix<double> compress_form_factors(const FormFactors& form_factors) {
+  if (!form_factors.symmetric()) return compress<double>(*form_factors.unsymmetric);
+  const Eigen::VectorXd root_area = form_factors.mesh->area.cwiseSqrt();
+  CsrMatrix<double> matrix = compress<double>(*form_factors.kernel);
+  for (Index i = 0; i < matrix.rows(); ++i)
+    for (auto k = static_cast<std::size_t>(matrix.row_begin[static_cast<std::size_t>(i)]);
+         k < static_cast<std::size_t>(matrix.row_begin[static_cast<std::size_t>(i) + 1]); ++k)
+      matrix.value[k] *= root_area[matrix.column[k]] / root_area[i];
+  return matrix;
+}
+
+CsrMatrix<double> scale_rows(CsrMatrix<double> matrix, const Eigen::VectorXd& factors) {
+  for (Index i = 0; i < matrix.rows(); ++i)
+    for (auto k = static_cast<std::size_t>(matrix.row_begin[static_cast<std::size_t>(i)]);
+         k < static_cast<std::size_t>(matrix.row_begin[static_cast<std::size_t>(i) + 1]); ++k)
+      matrix.value[k] *= factors[i];
+  return matrix;
+}
+
+class NeumannSparseOperator final : public LinearOperator {
+ public:
+  NeumannSparseOperator(const FormFactors& form_factors, const SparsePowersOptions& options)
+      : size_(form_factors.patch_count()),
+        channels_(form_factors.mesh->channels()),
+        options_(options),
+        reflectances_(form_factors.mesh->reflectance) {
+    const Eigen::MatrixXd& reflectance = form_factors.mesh->reflectance;
+    check_reflectance(reflectance, size_);
+    const CsrMatrix<double> F = compress_form_factors(form_factors);
+    const Eigen::VectorXd root_area = form_factors.mesh->area.cwiseSqrt();
+    for (Index distinct = 0; distinct < reflectances_.count(); ++distinct)
+      indirect_.push_back(sum_sparse_powers(
+          scale_rows(F, reflectance.col(reflectances_.representative(distinct))), root_area, options));
+  }
+
+  Index size() const override { return size_; }
+  Index channels() const override { return channels_; }
+  bool global() const override { return true; }
+
+  ByteCount bytes() const override {
+    std::size_t entries = 0;
+    std::size_t indices = 0;
+    for (const SparsePowers& series : indirect_) {
+      entries += series.sum.value_bytes();
+      indices += series.sum.index_bytes();
+    }
+    return {{{"entries", entries}, {"indices", indices}}};
+  }
+
+  std::string describe() const override {
+    return fmt::format("neumann-sparse:threshold={},bounces={}", options_.threshold, options_.most_powers);
+  }
+
+  std::string remark() const override {
+    int powers = 0;
+    double kept = 0;
+    double remainder = 0;
+    for (const SparsePowers& series : indirect_) {
+      powers = std::max(powers, series.powers);
+      kept += static_cast<double>(series.sum.value.size());
+      remainder = std::max(remainder, series.remainder);
+    }
+    const double all =
+        static_cast<double>(reflectances_.count()) * static_cast<double>(size_) * static_cast<double>(size_);
+    std::string text =
+        fmt::format("{} powers of T, {:.3g} % of the entries kept", powers, all > 0 ? 100 * kept / all : 0);
+    if (remainder > 0x1p-24)
+      text += fmt::format(", and further powers would add about {:.2g} of a row's norm", remainder);
+    return text;
+  }
+
+ protected:
+  void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override {
+    const Field reflected =
+        reflectances_.multiply_each(X, size_, [&](Index distinct, const Field& fields, FieldRef images) {
+          multiply(indirect_[static_cast<std::size_t>(distinct)].sum, fields, images);
+        });
+    add_answer(alpha, X, reflected, beta, Y);
+  }
+
+ private:
+  Index size_;
+  Index channels_;
+  SparsePowersOptions options_;
+  DistinctReflectances reflectances_;
+  std::vector<SparsePowers> indirect_;  ///< G - I, one a distinct reflectance
+};
+
+}  // namespace
+
+std::unique_ptr<LinearOperator> make_neumann_sparse_operator(Spec& spec, const FormFactors& form_factors) {
+  SparsePowersOptions options;
+  options.threshold = spec.number("threshold", 1e-5, 0, 1);
+  options.most_powers = static_cast<int>(spec.integer("bounces", options.most_powers, 1, 1 << 20));
+  spec.finish();
+  return std::make_unique<NeumannSparseOperator>(form_factors, options);
+}
+
+}  // namespace radiosity
