@@ -4,6 +4,7 @@
 #include "foundation/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -37,91 +38,137 @@ CsrMatrix<double> weighed(const CsrMatrix<double>& M, const Eigen::VectorXd& wei
   return result;
 }
 
-struct SparseRow {
-  std::vector<std::int32_t> column;
-  std::vector<double> value;
+/// So many rows of a power are multiplied together, so that an entry of the matrix is read once for all.
+constexpr Index lanes = 8;
 
-  double norm() const {
-    return std::sqrt(std::inner_product(value.begin(), value.end(), value.begin(), 0.0));
+/// One number a row.
+struct alignas(64) Lanes {
+  std::array<double, lanes> value{};
+
+  double& operator[](std::size_t lane) { return value[lane]; }
+  double operator[](std::size_t lane) const { return value[lane]; }
+
+  void add_product(const Lanes& factor, double entry) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) value[lane] += factor.value[lane] * entry;
   }
 };
 
-/// The series of one row after another.
+/// The series of `lanes` rows after another. A row's series does not depend on the rows beside it.
 class RowSeries {
  public:
   RowSeries(const CsrMatrix<double>& first, const SparsePowersOptions& options)
-      : first_(first), options_(options), sum_(zeros()), product_(zeros()) {}
+      : first_(first),
+        options_(options),
+        sum_(static_cast<std::size_t>(first.cols)),
+        product_(static_cast<std::size_t>(first.cols)) {}
 
-  /// Sums row i; what was there before is forgotten.
-  void run(Index i) {
-    std::fill(sum_.begin(), sum_.end(), 0.0);
-    power_ = row_of_first(i);
-    remainder_ = 0;
-    const double first_norm = power_.norm();
-    double norm = first_norm;
-    for (powers_ = 0; !power_.column.empty();) {
-      for (std::size_t k = 0; k < power_.column.size(); ++k)
-        sum_[static_cast<std::size_t>(power_.column[k])] += power_.value[k];
-      ++powers_;
-      if (powers_ > 1 && has_ended(std::exchange(norm, power_.norm()), norm)) return;
-      if (norm > endless_growth * first_norm)
-        fail("the powers of a matrix grow without end: its spectral radius is above 1");
-      if (powers_ == options_.most_powers) return;
+  /// Sums rows i ... i + count - 1, at most `lanes`; what was there before is forgotten.
+  void run(Index i, Index count) {
+    std::fill(sum_.begin(), sum_.end(), Lanes{});
+    powers_ = {};
+    remainder_ = {};
+    running_ = {};
+    for (Index row = i; row < i + count; ++row) start(row, static_cast<std::size_t>(row - i));
+    take_product();
+    const Lanes first_norms = norms(power_);
+    Lanes before = first_norms;
+    for (int powers = 1; !column_.empty(); ++powers) {
+      for (std::size_t k = 0; k < column_.size(); ++k)
+        sum_[static_cast<std::size_t>(column_[k])].add_product(power_[k], 1);
+      const Lanes now = norms(power_);
+      const Lanes sums = norms(sum_);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        if (running_[lane]) judge(lane, powers, {first_norms[lane], before[lane], now[lane], sums[lane]});
+      before = now;
+      if (powers == options_.most_powers) return;
       multiply_power();
+      take_product();
     }
-    remainder_ = 0;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (running_[lane]) remainder_[lane] = 0;
   }
 
-  const std::vector<double>& sum() const { return sum_; }
-  int powers() const { return powers_; }
-  double remainder() const { return remainder_; }
+  double sum(std::size_t lane, std::size_t column) const { return sum_[column][lane]; }
+  int powers(std::size_t lane) const { return powers_[lane]; }
+  double remainder(std::size_t lane) const { return remainder_[lane]; }
 
  private:
-  std::vector<double> zeros() const {
-    return std::vector<double>(static_cast<std::size_t>(first_.cols), 0.0);
+  void start(Index row, std::size_t lane) {
+    running_[lane] = true;
+    const auto end = static_cast<std::size_t>(first_.row_begin[static_cast<std::size_t>(row) + 1]);
+    for (auto k = static_cast<std::size_t>(first_.row_begin[static_cast<std::size_t>(row)]); k < end; ++k)
+      product_[static_cast<std::size_t>(first_.column[k])][lane] = first_.value[k];
   }
 
-  SparseRow row_of_first(Index i) const {
-    const auto begin = first_.row_begin[static_cast<std::size_t>(i)];
-    const auto end = first_.row_begin[static_cast<std::size_t>(i) + 1];
-    return {{first_.column.begin() + begin, first_.column.begin() + end},
-            {first_.value.begin() + begin, first_.value.begin() + end}};
+  static Lanes norms(const std::vector<Lanes>& rows) {
+    Lanes result;
+    for (const Lanes& entries : rows)
+      for (std::size_t lane = 0; lane < lanes; ++lane) result[lane] += entries[lane] * entries[lane];
+    for (double& square : result.value) square = std::sqrt(square);
+    return result;
   }
 
-  /// Further powers as a geometric series of the last two norms.
-  bool has_ended(double before, double norm) {
-    const double sum_norm = std::sqrt(std::inner_product(sum_.begin(), sum_.end(), sum_.begin(), 0.0));
-    const double ratio = norm / before;
-    remainder_ = ratio < 1 ? norm * ratio / (1 - ratio) / sum_norm : norm / sum_norm;
-    return ratio < 1 && remainder_ <= single_roundoff;
+  struct RowNorms {
+    double first;
+    double before;
+    double now;
+    double sum;
+  };
+
+  /// Whether a row goes on after its power number `powers`: further ones are estimated as a geometric series
+  /// of the last two norms.
+  void judge(std::size_t lane, int powers, const RowNorms& norm) {
+    if (norm.now == 0) {  // what was left has been dropped
+      running_[lane] = false;
+      remainder_[lane] = 0;
+      return;
+    }
+    powers_[lane] = powers;
+    if (norm.now > endless_growth * norm.first)
+      fail("the powers of a matrix grow without end: its spectral radius is above 1");
+    if (powers == 1) return;
+    const double ratio = norm.now / norm.before;
+    remainder_[lane] = ratio < 1 ? norm.now * ratio / (1 - ratio) / norm.sum : norm.now / norm.sum;
+    running_[lane] = !(ratio < 1 && remainder_[lane] <= single_roundoff);
   }
 
-  /// The next power of the row, without its small entries.
+  /// The next power of the rows.
   void multiply_power() {
-    for (std::size_t k = 0; k < power_.column.size(); ++k) {
-      const double factor = power_.value[k];
-      const auto row = static_cast<std::size_t>(power_.column[k]);
+    for (std::size_t k = 0; k < column_.size(); ++k) {
+      const Lanes factor = power_[k];
+      const auto row = static_cast<std::size_t>(column_[k]);
       const auto end = static_cast<std::size_t>(first_.row_begin[row + 1]);
       for (auto entry = static_cast<std::size_t>(first_.row_begin[row]); entry < end; ++entry)
-        product_[static_cast<std::size_t>(first_.column[entry])] += factor * first_.value[entry];
+        product_[static_cast<std::size_t>(first_.column[entry])].add_product(factor, first_.value[entry]);
     }
-    power_.column.clear();
-    power_.value.clear();
+  }
+
+  /// Makes the product the power, without its small entries and the rows that have ended.
+  void take_product() {
+    column_.clear();
+    power_.clear();
     for (std::size_t j = 0; j < product_.size(); ++j) {
-      const double entry = std::exchange(product_[j], 0.0);
-      if (entry == 0 || !(std::fabs(entry) >= options_.threshold)) continue;
-      power_.column.push_back(static_cast<std::int32_t>(j));
-      power_.value.push_back(entry);
+      Lanes entries = std::exchange(product_[j], Lanes{});
+      bool any = false;
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (!running_[lane] || !(std::fabs(entries[lane]) >= options_.threshold)) entries[lane] = 0;
+        any = any || entries[lane] != 0;
+      }
+      if (!any) continue;
+      column_.push_back(static_cast<std::int32_t>(j));
+      power_.push_back(entries);
     }
   }
 
   const CsrMatrix<double>& first_;
   const SparsePowersOptions& options_;
-  std::vector<double> sum_;
-  std::vector<double> product_;  ///< 0 between products
-  SparseRow power_;
-  int powers_ = 0;
-  double remainder_ = 0;
+  std::vector<Lanes> sum_;
+  std::vector<Lanes> product_;        ///< 0 between products
+  std::vector<std::int32_t> column_;  ///< where any row of the power is not 0
+  std::vector<Lanes> power_;          ///< there
+  std::array<int, lanes> powers_{};
+  std::array<double, lanes> remainder_{};
+  std::array<bool, lanes> running_{};
 };
 
 /// Consecutive rows of the sum, in M's own entries.
@@ -132,17 +179,18 @@ struct Rows {
   int powers = 0;
   double remainder = 0;
 
-  void append(const RowSeries& series, Index i, const Eigen::VectorXd& weights) {
+  void append(const RowSeries& series, std::size_t lane, Index i, const Eigen::VectorXd& weights) {
     const std::size_t before = column.size();
-    for (std::size_t j = 0; j < series.sum().size(); ++j) {
-      const auto entry = static_cast<float>(series.sum()[j] * weights[static_cast<Index>(j)] / weights[i]);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(weights.size()); ++j) {
+      const auto entry =
+          static_cast<float>(series.sum(lane, j) * weights[static_cast<Index>(j)] / weights[i]);
       if (entry == 0) continue;
       column.push_back(static_cast<std::int32_t>(j));
       value.push_back(entry);
     }
     counts.push_back(static_cast<std::int64_t>(column.size() - before));
-    powers = std::max(powers, series.powers());
-    remainder = std::max(remainder, series.remainder());
+    powers = std::max(powers, series.powers(lane));
+    remainder = std::max(remainder, series.remainder(lane));
   }
 };
 
@@ -171,16 +219,15 @@ SparsePowers sum_sparse_powers(const CsrMatrix<double>& M, const Eigen::VectorXd
         "the powers of a matrix of {} x {} with {} weights: give a square matrix and a weight a row", n,
         M.cols, weights.size());
   const CsrMatrix<double> first = weighed(M, weights, options.threshold);
-  constexpr Index rows_together = 16;
-  std::vector<Rows> blocks(static_cast<std::size_t>((n + rows_together - 1) / rows_together));
+  std::vector<Rows> blocks(static_cast<std::size_t>((n + lanes - 1) / lanes));
   std::atomic<std::size_t> entries = 0;
   parallel_for(blocks.size(), [&](std::size_t block) {
     RowSeries series(first, options);
-    const Index begin = static_cast<Index>(block) * rows_together;
-    for (Index i = begin; i < std::min(n, begin + rows_together); ++i) {
-      series.run(i);
-      blocks[block].append(series, i, weights);
-    }
+    const Index first_row = static_cast<Index>(block) * lanes;
+    const Index rows = std::min(lanes, n - first_row);
+    series.run(first_row, rows);
+    for (Index row = 0; row < rows; ++row)
+      blocks[block].append(series, static_cast<std::size_t>(row), first_row + row, weights);
     const std::size_t found = blocks[block].value.size();
     if (bytes_per_entry * (entries += found) > options.most_bytes)
       fail(

@@ -16,8 +16,8 @@ namespace radiosity {
 /// and factored in double at the first start(), k products with U and V, and again when the reflectance has
 /// changed. One step answers and computes the residual with the operator's own product; where that misses the
 /// tolerance, further steps are iterative refinements with the same factors. products() counts the
-/// refinements. Refuses as singular where the estimated reciprocal condition number of the capacitance matrix
-/// is below k u.
+/// refinements. Refuses as singular where a capacitance matrix is not to be told from a singular one
+/// (CapacitanceMatrices::singular).
 class Woodbury final : public SteppedSolver {
  public:
   /// Throws UsageError if the operator is not of low rank.

@@ -1,8 +1,8 @@
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 
-#include "factorizations/lapack.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
+#include "operators/capacitance.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -78,9 +78,9 @@ TallMatrix<float> precompute_woodbury(const Segments& V, TallMatrix<float> U, co
   if (V.rows() != U.rows() || V.count() != U.columns() || reflectance.size() != U.rows())
     fail<UsageError>("V of {} x {}, U of {} x {} and {} reflectances do not fit", V.rows(), V.count(),
                      U.rows(), U.columns(), reflectance.size());
-  const LuFactors capacitance(transposed_capacitance(V, U, reflectance));
+  const CapacitanceMatrix capacitance(transposed_capacitance(V, U, reflectance));
   constexpr double unit_roundoff = 0x1p-53;
-  if (capacitance.reciprocal_condition() < static_cast<double>(U.columns()) * unit_roundoff)
+  if (capacitance.reciprocal_condition() < static_cast<double>(U.rows()) * unit_roundoff)
     fail("I - V' R U is singular (reciprocal condition {:.1e}): light never dies out; lower the reflectances",
          capacitance.reciprocal_condition());
   constexpr Index block_rows = 32 * factor_panel;

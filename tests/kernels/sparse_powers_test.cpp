@@ -74,6 +74,7 @@ TEST(SparsePowers, WithoutAThresholdAreTheInverse) {
     const MatrixXd exact = exact_sum(matrix);
     EXPECT_LE((full(powers.sum) - exact).norm(), 0x1p-22 * exact.norm()) << n;
     EXPECT_LE(powers.remainder, 0x1p-24);
+    if (n < 17) continue;
     const SparsePowers few = powers_of(matrix, {.most_powers = 3});
     EXPECT_GT((full(few.sum) - exact).norm(), 1e-2 * exact.norm()) << n;
     EXPECT_GT(few.remainder, 1e-2) << "what is missing is said";
@@ -84,15 +85,16 @@ TEST(SparsePowers, LoseMoreWithEveryThreshold) {
   const MatrixXd matrix = contraction(80);
   const MatrixXd exact = exact_sum(matrix);
   double error = 1e-7;
-  std::size_t entries = 80 * 80 + 1;
+  std::size_t entries = 80 * 80;
   for (const double threshold : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     const SparsePowers powers = powers_of(matrix, {.threshold = threshold});
     const double next = (full(powers.sum) - exact).norm() / exact.norm();
     EXPECT_GT(next, error) << threshold;
-    EXPECT_LT(powers.sum.value.size(), entries) << threshold;
+    EXPECT_LE(powers.sum.value.size(), entries) << threshold;
     error = next;
     entries = powers.sum.value.size();
   }
+  EXPECT_LT(entries, 80 * 80 / 2);
 }
 
 TEST(SparsePowers, AreTheSameForAnyNumberOfThreads) {
@@ -121,7 +123,7 @@ TEST(SparsePowers, RefuseWhatDoesNotFitOrEnd) {
   const MatrixXd matrix = contraction(40);
   EXPECT_EQ(refusal(matrix, {.most_bytes = 40 * 40 * 8}), "");
   EXPECT_NE(refusal(matrix, {.most_bytes = 40 * 40 * 8 - 1}).find("raise the threshold"), std::string::npos);
-  EXPECT_NE(refusal(2 * matrix / 0.9, {}).find("grow without end"), std::string::npos);
+  EXPECT_NE(refusal(MatrixXd::Constant(40, 40, 2.0 / 40), {}).find("grow without end"), std::string::npos);
   EXPECT_THROW(sum_sparse_powers(sparse(matrix), VectorXd::Ones(3), {}), UsageError);
 }
 
