@@ -42,7 +42,7 @@ struct Timing {
 struct ComparisonErrors {
   std::optional<double> operator_frobenius;  ///< ||A - T||_F / ||T||_F of the entries A^{1/2} T A^{-1/2},
                                              ///< over all channels; empty for operators that map E to B
-  std::optional<double> radiosity_mean;  ///< of ||B - B_ref||_A / ||B_ref||_A over the lights
+  std::optional<double> radiosity_mean;      ///< of ||B - B_ref||_A / ||B_ref||_A over the lights
   std::optional<double> radiosity_max;
   std::optional<double> indirect_mean;  ///< the same for B - E
   std::optional<double> indirect_max;

@@ -25,7 +25,7 @@ lapack_int as_lapack(Index size) {
 /// where the machine is busy. Never a question of how many threads parallel_for may use, so that results are
 /// the same whatever that is.
 int threads_for(Index size) {
-  constexpr Index worth_sharing = 512;
+  constexpr Index worth_sharing = 1024;
   return size < worth_sharing ? 1 : BlasThreads::current();
 }
 
