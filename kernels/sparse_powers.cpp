@@ -39,21 +39,21 @@ CsrMatrix<double> weighed(const CsrMatrix<double>& M, const Eigen::VectorXd& wei
 }
 
 /// So many rows of a power are multiplied together, so that an entry of the matrix is read once for all.
-constexpr Index lanes = 8;
+constexpr Index rows_together = 8;
 
 /// One number a row.
 struct alignas(64) Lanes {
-  std::array<double, lanes> value{};
+  std::array<double, rows_together> value{};
 
   double& operator[](std::size_t lane) { return value[lane]; }
   double operator[](std::size_t lane) const { return value[lane]; }
 
   void add_product(const Lanes& factor, double entry) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) value[lane] += factor.value[lane] * entry;
+    for (std::size_t lane = 0; lane < rows_together; ++lane) value[lane] += factor.value[lane] * entry;
   }
 };
 
-/// The series of `lanes` rows after another. A row's series does not depend on the rows beside it.
+/// The series of `rows_together` rows after another. A row's series does not depend on the rows beside it.
 class RowSeries {
  public:
   RowSeries(const CsrMatrix<double>& first, const SparsePowersOptions& options)
@@ -62,7 +62,7 @@ class RowSeries {
         sum_(static_cast<std::size_t>(first.cols)),
         product_(static_cast<std::size_t>(first.cols)) {}
 
-  /// Sums rows i ... i + count - 1, at most `lanes`; what was there before is forgotten.
+  /// Sums rows i ... i + count - 1, at most `rows_together`; what was there before is forgotten.
   void run(Index i, Index count) {
     std::fill(sum_.begin(), sum_.end(), Lanes{});
     powers_ = {};
@@ -77,14 +77,14 @@ class RowSeries {
         sum_[static_cast<std::size_t>(column_[k])].add_product(power_[k], 1);
       const Lanes now = norms(power_);
       const Lanes sums = norms(sum_);
-      for (std::size_t lane = 0; lane < lanes; ++lane)
+      for (std::size_t lane = 0; lane < rows_together; ++lane)
         if (running_[lane]) judge(lane, powers, {first_norms[lane], before[lane], now[lane], sums[lane]});
       before = now;
       if (powers == options_.most_powers) return;
       multiply_power();
       take_product();
     }
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+    for (std::size_t lane = 0; lane < rows_together; ++lane)
       if (running_[lane]) remainder_[lane] = 0;
   }
 
@@ -103,7 +103,7 @@ class RowSeries {
   static Lanes norms(const std::vector<Lanes>& rows) {
     Lanes result;
     for (const Lanes& entries : rows)
-      for (std::size_t lane = 0; lane < lanes; ++lane) result[lane] += entries[lane] * entries[lane];
+      for (std::size_t lane = 0; lane < rows_together; ++lane) result[lane] += entries[lane] * entries[lane];
     for (double& square : result.value) square = std::sqrt(square);
     return result;
   }
@@ -150,7 +150,7 @@ class RowSeries {
     for (std::size_t j = 0; j < product_.size(); ++j) {
       Lanes entries = std::exchange(product_[j], Lanes{});
       bool any = false;
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
+      for (std::size_t lane = 0; lane < rows_together; ++lane) {
         if (!running_[lane] || !(std::fabs(entries[lane]) >= options_.threshold)) entries[lane] = 0;
         any = any || entries[lane] != 0;
       }
@@ -166,9 +166,9 @@ class RowSeries {
   std::vector<Lanes> product_;        ///< 0 between products
   std::vector<std::int32_t> column_;  ///< where any row of the power is not 0
   std::vector<Lanes> power_;          ///< there
-  std::array<int, lanes> powers_{};
-  std::array<double, lanes> remainder_{};
-  std::array<bool, lanes> running_{};
+  std::array<int, rows_together> powers_{};
+  std::array<double, rows_together> remainder_{};
+  std::array<bool, rows_together> running_{};
 };
 
 /// Consecutive rows of the sum, in M's own entries.
@@ -219,12 +219,12 @@ SparsePowers sum_sparse_powers(const CsrMatrix<double>& M, const Eigen::VectorXd
         "the powers of a matrix of {} x {} with {} weights: give a square matrix and a weight a row", n,
         M.cols, weights.size());
   const CsrMatrix<double> first = weighed(M, weights, options.threshold);
-  std::vector<Rows> blocks(static_cast<std::size_t>((n + lanes - 1) / lanes));
+  std::vector<Rows> blocks(static_cast<std::size_t>((n + rows_together - 1) / rows_together));
   std::atomic<std::size_t> entries = 0;
   parallel_for(blocks.size(), [&](std::size_t block) {
     RowSeries series(first, options);
-    const Index first_row = static_cast<Index>(block) * lanes;
-    const Index rows = std::min(lanes, n - first_row);
+    const Index first_row = static_cast<Index>(block) * rows_together;
+    const Index rows = std::min(rows_together, n - first_row);
     series.run(first_row, rows);
     for (Index row = 0; row < rows; ++row)
       blocks[block].append(series, static_cast<std::size_t>(row), first_row + row, weights);
