@@ -3,9 +3,12 @@
 #include "apps/terminal_monitor.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
+#include "experiments/low_rank_radiosity/changing_lights.hpp"
 #include "experiments/low_rank_radiosity/coherence_pictures.hpp"
+#include "experiments/low_rank_radiosity/equal_cost.hpp"
 #include "experiments/low_rank_radiosity/error_study.hpp"
 #include "experiments/low_rank_radiosity/low_rank_tables.hpp"
+#include "experiments/low_rank_radiosity/moved_object.hpp"
 #include "experiments/machine.hpp"
 #include "experiments/report.hpp"
 #include "experiments/solver_study.hpp"
@@ -109,21 +112,66 @@ ReportSection run_low_rank_pictures(const ReproduceOptions& options, const std::
   return low_rank_pictures(options.folder, command, pictures, monitor);
 }
 
-constexpr std::array<Experiment, 6> experiments = {{{"first-light", run_first_light},
+ReportSection run_low_rank_patio(const ReproduceOptions& options, const std::string& command,
+                                 const Program& /*program*/, Monitor& monitor) {
+  ChangingLightsOptions patio;
+  if (options.full) {
+    patio.patches = 24128;
+    patio.coarse_patches = 1364;
+    patio.pictures = patio.frames;
+    patio.largest_dense = patio.patches;
+    patio.seconds = 4;
+  }
+  patio.seed = options.run.seed;
+  return changing_lights(options.folder, command, patio, monitor);
+}
+
+ReportSection run_low_rank_motion(const ReproduceOptions& options, const std::string& command,
+                                  const Program& /*program*/, Monitor& monitor) {
+  MovedObjectOptions motion;
+  if (options.full) {
+    motion.patches = 5600;
+    motion.coarse_patches = 640;
+    motion.steps = 8;
+  }
+  motion.seed = options.run.seed;
+  return moved_object(options.folder, command, motion, monitor);
+}
+
+ReportSection run_low_rank_sides(const ReproduceOptions& options, const std::string& command,
+                                 const Program& program, Monitor& monitor) {
+  EqualCostOptions sides;
+  if (options.full) {
+    sides.patches = 3300;
+    sides.ranks = {103, 206, 412};
+  }
+  sides.seed = options.run.seed;
+  return equal_cost(options.folder, command, sides, program.operators, program.solvers, monitor);
+}
+
+constexpr std::array<Experiment, 9> experiments = {{{"first-light", run_first_light},
                                                     {"solvers", run_solvers},
                                                     {"hard-cases", run_hard_case_tables},
                                                     {"low-rank-pictures", run_low_rank_pictures},
                                                     {"low-rank-errors", run_low_rank_errors},
-                                                    {"low-rank-tables", run_low_rank_tables}}};
+                                                    {"low-rank-sides", run_low_rank_sides},
+                                                    {"low-rank-tables", run_low_rank_tables},
+                                                    {"low-rank-patio", run_low_rank_patio},
+                                                    {"low-rank-motion", run_low_rank_motion}}};
 
-void require_known_tables(const std::vector<std::string>& tables) {
+/// "first-light, solvers, ...".
+std::string known_tables() {
   std::string known;
   for (const Experiment& experiment : experiments)
     known += (known.empty() ? "" : ", ") + std::string(experiment.name);
+  return known;
+}
+
+void require_known_tables(const std::vector<std::string>& tables) {
   for (const std::string& table : tables)
     if (std::none_of(experiments.begin(), experiments.end(),
                      [&](const Experiment& e) { return table == e.name; }))
-      fail<UsageError>("there is no table '{}'; the known ones are {}", table, known);
+      fail<UsageError>("there is no table '{}'; the known ones are {}", table, known_tables());
 }
 
 bool wanted(const ReproduceOptions& options, const Experiment& experiment) {
@@ -167,11 +215,7 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   CLI::App* command =
       app.add_subcommand("reproduce", "run the experiments: tables and figures, into results/report.html");
   const auto options = std::make_shared<ReproduceOptions>();
-  command
-      ->add_option("TABLE", options->tables,
-                   "first-light, solvers, hard-cases, low-rank-pictures, low-rank-errors, low-rank-tables; "
-                   "default: all")
-      ->option_text(" ");
+  command->add_option("TABLE", options->tables, known_tables() + "; default: all")->option_text(" ");
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")
       ->option_text("FOLDER");

@@ -34,7 +34,8 @@ function(radiosity_library name)
 endfunction()
 
 # radiosity_test(NAME targets... [SLOW tests...]): every *.cpp of the current folder in one GoogleTest program. The tests named
-# after SLOW (GoogleTest's patterns) get the label "slow" instead of NAME: sanitizer runs leave them out.
+# after SLOW (GoogleTest's patterns) get the label "slow" instead of NAME: sanitizers leave them out, and run the others in one
+# process, since an instrumented program takes longer to start than most tests take.
 function(radiosity_test name)
   cmake_parse_arguments(arg "" "" "SLOW" ${ARGN})
   list(JOIN arg_SLOW ":" slow)
@@ -49,6 +50,11 @@ function(radiosity_test name)
     target_compile_options(${target} PRIVATE -O1)
   endif()
   target_compile_definitions(${target} PRIVATE RADIOSITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(RADIOSITY_SANITIZE)
+    add_test(NAME ${name} COMMAND ${target} --gtest_brief=1 "--gtest_filter=-${slow}")
+    set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 900)
+    return()
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX "${name}." TEST_FILTER "-${slow}" DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS ${name} TIMEOUT 600)
   if(arg_SLOW)

@@ -51,12 +51,25 @@ PatchMesh joined_mesh(const PatchMesh& elements, std::span<const Index> batch, c
   return mesh;
 }
 
+/// Some elements and all patches, which follow them in the joined mesh.
+struct Batch {
+  std::span<const Index> elements;
+  const ElementFactorChoice& wanted;
+
+  Index count() const { return static_cast<Index>(elements.size()); }
+  bool wants(Index row, Index patch) const {
+    return !wanted || wanted(elements[static_cast<std::size_t>(row)], patch);
+  }
+};
+
 /// F_ep for the elements of one cluster that are elements, into rows of `factors`.
-std::uint64_t fill_cluster(const PairExchange& exchange, const PatchCluster& own, Index elements,
+std::uint64_t fill_cluster(const PairExchange& exchange, const PatchCluster& own, const Batch& batch,
                            const Monitor& monitor, Eigen::MatrixXd& factors) {
   const PatchGeometry& geometry = exchange.geometry();
+  const Index elements = batch.count();
   ExchangeWorkspace workspace = exchange.make_workspace();
   ClusterExchange result;
+  bool wanted[PairHeights::capacity];
   std::uint64_t rays = 0;
   for (const PatchCluster& cluster : geometry.clusters()) {
     // Within a cluster, patches are sorted by their place in the joined mesh: elements come first.
@@ -66,11 +79,19 @@ std::uint64_t fill_cluster(const PairExchange& exchange, const PatchCluster& own
     if (pair.nothing) continue;
     for (int i = own.begin; i < own.end; ++i) {
       if (geometry.to_mesh(i) >= elements) continue;
-      exchange.evaluate(i, pair, 0, workspace, result);
+      const Index row = geometry.to_mesh(i);
+      bool any = false;
+      for (int j = cluster.begin; j < cluster.end; ++j) {
+        const Index patch = geometry.to_mesh(j) - elements;
+        wanted[j - cluster.begin] = patch >= 0 && batch.wants(row, patch);
+        any = any || wanted[j - cluster.begin];
+      }
+      if (!any) continue;
+      exchange.evaluate(i, pair, 0, workspace, result, wanted);
       rays += result.rays;
       for (int j = cluster.begin; j < cluster.end; ++j)
-        if (geometry.to_mesh(j) >= elements)
-          factors(geometry.to_mesh(i), geometry.to_mesh(j) - elements) =
+        if (wanted[j - cluster.begin])
+          factors(row, geometry.to_mesh(j) - elements) =
               result.kernel[j - cluster.begin] * std::sqrt(geometry.area(j) / geometry.area(i));
     }
   }
@@ -88,14 +109,14 @@ std::uint64_t compute_element_factors(const PatchMesh& elements, std::span<const
   std::atomic<std::uint64_t> rays{0};
   for (Index first = 0; first < n; first += batch_size) {
     const Index count = std::min(batch_size, n - first);
-    const PairExchange exchange(
-        joined_mesh(elements, order.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)),
-                    patches),
-        options.tolerance, options.seed + static_cast<std::uint64_t>(first), least_rays);
+    const Batch batch{order.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)),
+                      options.wanted};
+    const PairExchange exchange(joined_mesh(elements, batch.elements, patches), options.tolerance,
+                                options.seed + static_cast<std::uint64_t>(first), least_rays);
     Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(count, patches.patch_count());
     const std::vector<PatchCluster>& clusters = exchange.geometry().clusters();
     parallel_for(clusters.size(), [&](std::size_t c) {
-      rays += fill_cluster(exchange, clusters[c], count, monitor, factors);
+      rays += fill_cluster(exchange, clusters[c], batch, monitor, factors);
     });
     sink(first, factors);
     monitor.checkpoint("form factors between two meshes",

@@ -12,9 +12,13 @@
 
 namespace radiosity {
 
+/// Whether F_ep of element e and patch p is asked for. Called from several threads at once.
+using ElementFactorChoice = std::function<bool(Index e, Index p)>;
+
 struct ElementFactorOptions {
   double tolerance = 1e-3;  ///< estimated standard error of each F_ep
   std::uint64_t seed = 1;
+  ElementFactorChoice wanted = {};  ///< what is not wanted is given as 0 and costs little; empty: all
 };
 
 /// Takes F_ep of the elements order[first], order[first + 1], ...: c x k. Called with rising `first`, never

@@ -140,7 +140,7 @@ double PairExchange::wanted_kernel_error(int i, int j) const {
 }
 
 void PairExchange::evaluate(int i, const ClusterPair& pair, int first, ExchangeWorkspace& workspace,
-                            ClusterExchange& result) const {
+                            ClusterExchange& result, const bool* wanted) const {
   const PatchCluster& cluster = *pair.other;
   const int count = cluster.end - cluster.begin;
   result.rays = 0;
@@ -152,7 +152,8 @@ void PairExchange::evaluate(int i, const ClusterPair& pair, int first, ExchangeW
   unobstructed_.with_cluster(i, cluster, result.kernel);
   for (int l = 0; l < count; ++l) {
     const int j = cluster.begin + l;
-    result.kernel[l] = j < first ? 0 : result.kernel[l] / std::sqrt(geometry_.area(i) * geometry_.area(j));
+    const bool skipped = j < first || (wanted != nullptr && !wanted[l]);
+    result.kernel[l] = skipped ? 0 : result.kernel[l] / std::sqrt(geometry_.area(i) * geometry_.area(j));
   }
   if (!pair.proofs || !pair.candidates.empty()) apply_visibility(i, pair, workspace, result);
 }

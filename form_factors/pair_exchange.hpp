@@ -56,9 +56,9 @@ class PairExchange {
   bool may_exchange(const PatchCluster& own, const PatchCluster& other) const;
 
   /// K_ij of patch i (of the pair's own cluster) with the other cluster's patches j >= first; 0 for j <
-  /// first.
+  /// first and, unless `wanted` is null, for those that it has false for.
   void evaluate(int i, const ClusterPair& pair, int first, ExchangeWorkspace& workspace,
-                ClusterExchange& result) const;
+                ClusterExchange& result, const bool* wanted = nullptr) const;
 
  private:
   enum class Shaft : unsigned char { clear, blocked, unknown };

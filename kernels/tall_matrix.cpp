@@ -55,6 +55,13 @@ TallMatrix<Scalar>::TallMatrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix)
 }
 
 template <typename Scalar>
+TallMatrix<Scalar> TallMatrix<Scalar>::clone() const {
+  TallMatrix copy(rows_, columns_, scale_);
+  std::copy_n(entries_.get(), panels() * panel_rows * columns_, copy.entries_.get());
+  return copy;
+}
+
+template <typename Scalar>
 void TallMatrix<Scalar>::Release::operator()(Scalar* entries) const {
   release_aligned(entries);
 }

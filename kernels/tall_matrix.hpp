@@ -25,6 +25,9 @@ class TallMatrix {
   /// From a matrix in double precision, with the scale that RowMajorMatrix would choose.
   explicit TallMatrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
+  /// The same numbers once more.
+  TallMatrix clone() const;
+
   Index rows() const { return rows_; }
   Index columns() const { return columns_; }
   double scale() const { return scale_; }

@@ -50,6 +50,29 @@ DirectTwoMeshFactors compute_two_mesh_factors(const PatchMesh& elements, const C
   return result;
 }
 
+std::uint64_t update_two_mesh_factors(DirectTwoMeshFactors& factors, const PatchMesh& elements,
+                                      const CoarseMesh& coarse, const ElementFactorOptions& options,
+                                      Monitor& monitor) {
+  const ElementPartition partition(coarse.patch_of_element, elements.area);
+  if (elements.patch_count() != factors.U.rows() || partition.patches() != factors.U.columns())
+    fail<UsageError>("factors of {} x {} cannot become those of {} elements in {} patches", factors.U.rows(),
+                     factors.U.columns(), elements.patch_count(), partition.patches());
+  const Eigen::VectorXd inverse_divisors = partition.divisors().cwiseInverse();
+  const std::vector<Index> order = row_order(factors.V);
+  return compute_element_factors(
+      elements, order, coarse.patches, options,
+      [&](Index first, const Eigen::MatrixXd& rows) {
+        parallel_for(static_cast<std::size_t>(rows.rows()), [&](std::size_t row) {
+          const Index sorted = first + static_cast<Index>(row);
+          const Index e = order[static_cast<std::size_t>(sorted)];
+          for (Index p = 0; p < rows.cols(); ++p)
+            if (!options.wanted || options.wanted(e, p))
+              factors.U.set(sorted, p, rows(static_cast<Index>(row), p) * inverse_divisors[p]);
+        });
+      },
+      monitor);
+}
+
 DirectTwoMesh make_direct_two_mesh(std::shared_ptr<const PatchMesh> elements, const PartitionChoice& choice,
                                    const ElementFactorOptions& options, const std::string& spec,
                                    Monitor& monitor) {

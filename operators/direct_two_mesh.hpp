@@ -23,6 +23,13 @@ struct DirectTwoMeshFactors {
 DirectTwoMeshFactors compute_two_mesh_factors(const PatchMesh& elements, const CoarseMesh& coarse,
                                               const ElementFactorOptions& options, Monitor& monitor);
 
+/// Makes U that of other meshes with as many elements and patches, each element in its old patch and as large
+/// as before, where only the pairs that options.wanted names are taken to differ: after something has moved
+/// (form_factors/moved_pairs.hpp). Returns the number of rays. Throws UsageError where the meshes do not fit.
+std::uint64_t update_two_mesh_factors(DirectTwoMeshFactors& factors, const PatchMesh& elements,
+                                      const CoarseMesh& coarse, const ElementFactorOptions& options,
+                                      Monitor& monitor);
+
 struct DirectTwoMesh {
   std::unique_ptr<SparseVOperator<float>> transport;
   std::uint64_t rays = 0;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace radiosity {
 namespace {
@@ -105,6 +106,13 @@ Eigen::MatrixXd shaded_reflectance(const PatchMesh& mesh) {
       colours(i, c) = shade * mesh.reflectance(i, std::min(c, mesh.channels() - 1));
   }
   return colours;
+}
+
+void expose_alike(std::vector<Picture>& pictures) {
+  double exposure = std::numeric_limits<double>::infinity();
+  for (const Picture& picture : pictures) exposure = std::min(exposure, exposure_of(picture));
+  for (Picture& picture : pictures)
+    for (float& number : picture.pixels) number *= static_cast<float>(exposure);
 }
 
 Picture side_by_side(const std::vector<Picture>& pictures) {

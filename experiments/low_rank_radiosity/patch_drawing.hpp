@@ -28,6 +28,10 @@ Picture draw_patches(const PatchMesh& mesh, const Eigen::MatrixXd& colours,
 /// block can be told apart: n x 3.
 Eigen::MatrixXd shaded_reflectance(const PatchMesh& mesh);
 
+/// Multiplies radiances with one exposure, that of the brightest picture (render/tone_mapping.hpp), so that
+/// they can be compared on a screen.
+void expose_alike(std::vector<Picture>& pictures);
+
 /// Pictures of one height side by side on white.
 Picture side_by_side(const std::vector<Picture>& pictures);
 

@@ -2,7 +2,6 @@
 
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
-#include "operators/capacitance.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -36,7 +35,7 @@ void add_segment(const Segments& V, const TallMatrix<float>& U, const VectorXd& 
 }
 
 /// (I - V' R U)', k x k.
-MatrixXd transposed_capacitance(const Segments& V, const TallMatrix<float>& U, const VectorXd& reflectance) {
+MatrixXd transposed_difference(const Segments& V, const TallMatrix<float>& U, const VectorXd& reflectance) {
   MatrixXd matrix(U.columns(), U.columns());
   parallel_for(static_cast<std::size_t>(U.columns()), [&](std::size_t index) {
     const auto p = static_cast<Index>(index);
@@ -73,16 +72,22 @@ void store_rows(const MatrixXd& transposed, Index first, TallMatrix<float>& Y) {
 
 }  // namespace
 
-TallMatrix<float> precompute_woodbury(const Segments& V, TallMatrix<float> U, const VectorXd& reflectance,
-                                      Monitor& monitor) {
+CapacitanceMatrix transposed_capacitance(const Segments& V, const TallMatrix<float>& U,
+                                         const VectorXd& reflectance) {
   if (V.rows() != U.rows() || V.count() != U.columns() || reflectance.size() != U.rows())
     fail<UsageError>("V of {} x {}, U of {} x {} and {} reflectances do not fit", V.rows(), V.count(),
                      U.rows(), U.columns(), reflectance.size());
-  const CapacitanceMatrix capacitance(transposed_capacitance(V, U, reflectance));
+  CapacitanceMatrix capacitance(transposed_difference(V, U, reflectance));
   constexpr double unit_roundoff = 0x1p-53;
   if (capacitance.reciprocal_condition() < static_cast<double>(U.rows()) * unit_roundoff)
     fail("I - V' R U is singular (reciprocal condition {:.1e}): light never dies out; lower the reflectances",
          capacitance.reciprocal_condition());
+  return capacitance;
+}
+
+TallMatrix<float> precompute_woodbury(const Segments& V, TallMatrix<float> U, const VectorXd& reflectance,
+                                      Monitor& monitor) {
+  const CapacitanceMatrix capacitance = transposed_capacitance(V, U, reflectance);
   constexpr Index block_rows = 32 * factor_panel;
   for (Index first = 0; first < U.rows(); first += block_rows) {
     monitor.checkpoint("solving for Y", static_cast<double>(first) / static_cast<double>(U.rows()));

@@ -3,14 +3,20 @@
 #include "foundation/monitor.hpp"
 #include "kernels/products.hpp"
 #include "kernels/segments.hpp"
+#include "operators/capacitance.hpp"
 
 namespace radiosity {
 
+/// (I - V' R U)' from V of n x k and U of n x k, made in double: rows of both are sorted by patch, and so are
+/// the reflectances (n) of one channel. Throws UsageError where shapes do not fit and Error where I - V' R U
+/// is singular to rounding.
+CapacitanceMatrix transposed_capacitance(const Segments& V, const TallMatrix<float>& U,
+                                         const Eigen::VectorXd& reflectance);
+
 /// Y of B = E - Y (V' E), with which T = R U V' is solved in one step (document 004, Equation 5, with its Y =
-/// -R U (I - V' R U)^-1), from U, n x k, in its place: rows of V and U are sorted by patch, and so are the
-/// reflectances (n) of the one channel that Y is right for. The capacitance matrix is made and factored in
-/// double; Y is rounded to float once. Takes some thousand rows in double and two matrices of k x k beside U.
-/// Throws UsageError where shapes do not fit and Error where I - V' R U is singular to rounding.
+/// -R U (I - V' R U)^-1), from U, n x k, in its place, for the channel of these reflectances (n, sorted by
+/// patch). Y is rounded to float once. Takes some thousand rows in double and two matrices of k x k beside U.
+/// Throws as transposed_capacitance().
 TallMatrix<float> precompute_woodbury(const Segments& V, TallMatrix<float> U,
                                       const Eigen::VectorXd& reflectance, Monitor& monitor);
 

@@ -107,23 +107,45 @@ bool same(const Json& a, const Json& b) {
   return a == b;
 }
 
+/// Compares with a file of this folder, and a copy whose error of the third result is one percent off.
+void expect_golden(const Json& actual, const std::string& name) {
+  const std::string file = RADIOSITY_SOURCE_DIR "/tests/experiments/" + name;
+  std::ifstream in(file);
+  ASSERT_TRUE(in) << file << " is missing; this run gave\n" << actual.dump(2);
+  const Json golden = Json::parse(in);
+  EXPECT_TRUE(same(actual, golden)) << "If the change is meant, put this into " << file << ":\n"
+                                    << actual.dump(2);
+  Json broken = golden;
+  broken["results"][2]["error"]["radiosity_mean"] =
+      1.01 * golden["results"][2]["error"]["radiosity_mean"].get<double>();
+  EXPECT_FALSE(same(actual, broken)) << "an error that is one percent off must be noticed";
+}
+
 TEST(Comparison, ATinyOneIsWhatItHasAlwaysBeen) {
   const Comparison comparison =
       run(form_factors_of("cube", 54), {"dense", "dense:f32", "dense:f16", "csr", "dimmed:factor=0.9"},
           "area:2,point:2,patch:1");
   Json actual = written(comparison);
   remove_measurements(actual);
-  const std::string file = RADIOSITY_SOURCE_DIR "/tests/experiments/golden_comparison.json";
-  std::ifstream in(file);
-  ASSERT_TRUE(in) << file << " is missing; this run gave\n" << actual.dump(2);
-  const Json golden = Json::parse(in);
-  EXPECT_TRUE(same(actual, golden)) << "If the change is meant, put this into " << file << ":\n"
-                                    << actual.dump(2);
+  expect_golden(actual, "golden_comparison.json");
+}
 
-  Json broken = golden;
-  broken["results"][2]["error"]["radiosity_mean"] =
-      1.01 * golden["results"][2]["error"]["radiosity_mean"].get<double>();
-  EXPECT_FALSE(same(actual, broken)) << "an error that is one percent off must be noticed";
+TEST(Comparison, ATinyOneOfLowRankIsWhatItHasAlwaysBeen) {
+  const Comparison comparison =
+      run(form_factors_of("cornell-box-closed", 200),
+          {"svd:k=40", "svd:k=40,norm=area", "rsvd:k=40", "qr:k=40,mesh=uniform", "qr:k=40,columns=pivoted",
+           "cur:k=40", "wavelet:k=40", "dct:k=40", "2msc:k=40,mesh=uniform",
+           "2msc:k=40,mesh=uniform,sides=two", "sparse-v:k=40,mesh=adaptive",
+           "sparse-v:k=40,factors=direct,mesh=uniform", "svd:k=40,global=1", "neumann-sparse:threshold=1e-3"},
+          "area:3,point:2");
+  const Json document = written(comparison);
+  Json table;
+  for (const Json& result : document["results"])
+    table["results"].push_back({{"operator", result["operator"]},
+                                {"solver", result["solver"]},
+                                {"bytes", result["bytes"]},
+                                {"error", result["error"]}});
+  expect_golden(table, "golden_low_rank.json");
 }
 
 TEST(Comparison, TheJsonHasTheKeysOfTheContract) {

@@ -61,6 +61,22 @@ TEST(PatchSums, AreSumsOfEntries) {
   }
 }
 
+TEST(ElementFactors, AreComputedWhereTheyAreWanted) {
+  const auto elements = mesh_of("clutter", 400);
+  const PatchMesh patches = coarsest_patches(*elements);
+  const std::vector<Index> order = mesh_order(*elements);
+  const Eigen::MatrixXd all = direct_factors(*elements, patches, order, 1e-2);
+  const auto wanted = [](Index e, Index p) { return e % 7 == 0 && p % 2 == 1; };
+  Eigen::MatrixXd some = Eigen::MatrixXd::Constant(all.rows(), all.cols(), -1);
+  SilentMonitor monitor;
+  const std::uint64_t rays = compute_element_factors(
+      *elements, order, patches, {.tolerance = 1e-2, .wanted = wanted},
+      [&](Index first, const Eigen::MatrixXd& rows) { some.middleRows(first, rows.rows()) = rows; }, monitor);
+  EXPECT_GT(rays, 0);
+  for (Index p = 0; p < all.cols(); ++p)
+    for (Index e = 0; e < all.rows(); ++e) EXPECT_EQ(some(e, p), wanted(e, p) ? all(e, p) : 0);
+}
+
 TEST(ElementFactors, OfAConvexSceneAreTheSumsOfItsForm) {
   const auto elements = mesh_of("cube", 864);
   const auto coarse = uniform_coarse_mesh(*elements, 54, Assignment::inclusion);

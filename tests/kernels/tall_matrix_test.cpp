@@ -36,6 +36,17 @@ TYPED_TEST(TallMatrixStorage, PadsTheLastPanelOnlyWithZeros) {
   }
 }
 
+TYPED_TEST(TallMatrixStorage, IsClonedWithItsScale) {
+  TallMatrix<TypeParam> M(1e-30 * random_matrix(70, 3, 63));
+  const TallMatrix<TypeParam> copy = M.clone();
+  EXPECT_EQ(copy.scale(), M.scale());
+  for (Index p = 0; p < 3; ++p)
+    for (Index e = 0; e < 70; ++e) EXPECT_EQ(copy(e, p), M(e, p));
+  const double before = copy(69, 2);
+  M.set(69, 2, 0);
+  EXPECT_EQ(copy(69, 2), before);
+}
+
 TYPED_TEST(TallMatrixStorage, IsFilledByPanelsAndByEntries) {
   const Eigen::MatrixXd matrix = random_matrix(150, 5, 62);
   const TallMatrix<TypeParam> whole(matrix);
