@@ -9,8 +9,6 @@
 namespace radiosity {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// Solves a symmetric tridiagonal system with `diagonal` and `beside` (one shorter); empty unless it is
 /// positive definite.
 std::optional<std::vector<double>> solve_tridiagonal(std::vector<double> diagonal,
@@ -158,8 +156,8 @@ RadauBound radau_error_bound(const KernelOperator& truth, const Field& emission,
     const LanczosColumn& column = columns[static_cast<std::size_t>(j)];
     const double mu = 1 - rows[j % channels];
     const double root_max = truth.size() == 0 ? 0 : root.col(j % channels).maxCoeff();
-    absolute[j] =
-        mu > 0 ? root_max * (slack * column.upper() + start.rounding[j] / mu) + start.moved[j] : infinite;
+    absolute[j] = mu > 0 ? root_max * (slack * column.upper() + start.rounding[j] / mu) + start.moved[j]
+                         : std::numeric_limits<double>::infinity();
     result.tight = result.tight && mu > 0 && column.ratio() <= options.wanted_ratio;
   }
   result.bound = ErrorBound::of(absolute, truth.root_area(), radiosity, channels);

@@ -1,5 +1,6 @@
 #include "experiments/json_objects.hpp"
 #include "experiments/low_rank_radiosity/changing_lights.hpp"
+#include "experiments/low_rank_radiosity/error_study_measures.hpp"
 #include "experiments/low_rank_radiosity/patch_drawing.hpp"
 #include "experiments/svg_plot.hpp"
 #include "foundation/error.hpp"
@@ -8,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
@@ -19,10 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr double megabyte = 1e6;
 constexpr double published_frames_a_second = 430;  // document 004, Section 5.4: 24128 x 1364
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 std::string frames_a_second(const Timing& timing) {
   return fmt::format("{:.0f} ({:.0f})", 1 / timing.min, 1 / timing.median);

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double room_side = 5;
 constexpr double box_side = 0.75;
-constexpr double box_bottom = 1.5;
-constexpr double box_front = 2.5;  // from the back wall
+constexpr double box_bottom = 0.75;
+constexpr double box_front = 1.25;  // from the back wall
 
 /// A rectangle from its first corner along two edges; its front is where their cross product points.
 void rectangle(SceneBuilder& builder, const Vector3& corner, const Vector3& u, const Vector3& v, int material,
