@@ -37,10 +37,14 @@ std::pair<double, double> line_through(const std::vector<CostedOperator>& operat
 
 /// Half of the smallest rank to four times the largest, each 1.41 times the one before.
 std::vector<Index> one_sided_ranks(const EqualCostOptions& options) {
-  std::vector<Index> ranks;
+  const double first = static_cast<double>(options.ranks.front()) / 2;
   const double last = 4 * static_cast<double>(options.ranks.back());
-  for (double k = static_cast<double>(options.ranks.front()) / 2; k <= last * 1.01; k *= std::sqrt(2.0))
-    ranks.push_back(std::min<Index>(static_cast<Index>(std::lround(k)), options.patches));
+  const auto steps = static_cast<int>(std::lround(2 * std::log2(last / first)));
+  std::vector<Index> ranks;
+  ranks.reserve(static_cast<std::size_t>(steps) + 1);
+  for (int step = 0; step <= steps; ++step)
+    ranks.push_back(
+        std::min<Index>(static_cast<Index>(std::lround(first * std::exp2(0.5 * step))), options.patches));
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
   return ranks;
 }
