@@ -1,10 +1,10 @@
 #include "experiments/low_rank_radiosity/changing_lights.hpp"
 #include "experiments/low_rank_radiosity/shared_factor_frame.hpp"
+#include "factorizations/lapack.hpp"
 #include "foundation/error.hpp"
 #include "foundation/random.hpp"
 #include "tests/temporary_folder.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -100,7 +100,7 @@ struct SmallFactors {
     Eigen::MatrixXd B(100, 3);
     for (Index c = 0; c < 3; ++c) {
       const Eigen::MatrixXd T = rho.col(c).asDiagonal() * U * indicator.transpose();
-      B.col(c) = (Eigen::MatrixXd::Identity(100, 100) - T).partialPivLu().solve(E.col(c));
+      B.col(c) = LuFactors(Eigen::MatrixXd::Identity(100, 100) - T).solve(E.col(c));
     }
     return B;
   }

@@ -1,14 +1,12 @@
 // Each operator of low rank is held to what defines it, and a broken variant of each fails that.
 
+#include "factorizations/lapack.hpp"
 #include "form_factors/exact_rooms.hpp"
 #include "operators/global_operator.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "operators/operator_registry.hpp"
 #include "scene/built_in.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -40,7 +38,7 @@ Factors factors_of(const LinearOperator& transport) {
 }
 
 MatrixXd orthonormal(const MatrixXd& X) {
-  return Eigen::HouseholderQR<MatrixXd>(X).householderQ() * MatrixXd::Identity(X.rows(), X.cols());
+  return orthonormal_columns(X);
 }
 
 /// How far factors are from what defines their method, relative to F.
@@ -48,7 +46,7 @@ using Definition = std::function<double(const MatrixXd& F, const Factors& factor
 
 /// The best of their rank.
 double beyond_the_best(const MatrixXd& F, const Factors& factors) {
-  const VectorXd sigma = Eigen::JacobiSVD<MatrixXd>(F).singularValues();
+  const VectorXd sigma = singular_value_decomposition(F).values;
   const double best = sigma.tail(sigma.size() - factors.U.cols()).norm();
   return ((F - factors.product()).norm() - best) / F.norm();
 }

@@ -1,10 +1,10 @@
+#include "factorizations/lapack.hpp"
 #include "form_factors/exact_rooms.hpp"
 #include "foundation/error.hpp"
 #include "operators/global_operator.hpp"
 #include "operators/operator_checks.hpp"
 #include "operators/operator_registry.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace radiosity {
@@ -24,7 +24,7 @@ Field answer_by_entries(const LinearOperator& transport, const Field& E) {
   Field B(E.rows(), E.cols());
   for (Index j = 0; j < E.cols(); ++j) {
     const Eigen::MatrixXd T = own.matrix[static_cast<std::size_t>(j % own.channels())].cast<double>();
-    B.col(j) = (Eigen::MatrixXd::Identity(T.rows(), T.cols()) - T).partialPivLu().solve(E.col(j));
+    B.col(j) = LuFactors(Eigen::MatrixXd::Identity(T.rows(), T.cols()) - T).solve(E.col(j));
   }
   return B;
 }

@@ -1,3 +1,4 @@
+#include "factorizations/lapack.hpp"
 #include "foundation/error.hpp"
 #include "foundation/random.hpp"
 #include "room_operators.hpp"
@@ -6,7 +7,6 @@
 #include "solvers/radau_bound.hpp"
 #include "solvers/solver_registry.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,7 @@ Trials draw_trials(const Room& room, Index count, std::uint64_t seed) {
   trials.emission = random_lights(n, count, seed);
   for (Index j = 0; j < count; j += 3)
     trials.emission.col(j).array() *= (trials.emission.col(j).array() > 0.9).cast<double>();
-  trials.truth =
-      Eigen::PartialPivLU<Eigen::MatrixXd>(Eigen::MatrixXd::Identity(n, n) - T).solve(trials.emission);
+  trials.truth = LuFactors(Eigen::MatrixXd::Identity(n, n) - T).solve(trials.emission);
   trials.answers = trials.truth;
   RandomStream random(seed, 77);
   for (Index j = 0; j < count; ++j) {

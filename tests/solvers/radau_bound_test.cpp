@@ -1,9 +1,9 @@
+#include "factorizations/lapack.hpp"
 #include "foundation/error.hpp"
 #include "room_operators.hpp"
 #include "solvers/radau_bound.hpp"
 #include "solvers/solver_registry.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ RadauRatios ratios_in(const Room& room, const RadauBoundOptions& options = {}) {
   const Field emission = random_lights(n, channels, 3);
   Field solution(n, channels);
   for (Index c = 0; c < channels; ++c)
-    solution.col(c) = (Eigen::MatrixXd::Identity(n, n) - room.transport(c)).lu().solve(emission.col(c));
+    solution.col(c) = LuFactors(Eigen::MatrixXd::Identity(n, n) - room.transport(c)).solve(emission.col(c));
   RadauRatios ratios;
   for (int kind = 0; kind < 5; ++kind) {
     Field answer = solution;

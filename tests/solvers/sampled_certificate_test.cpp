@@ -1,9 +1,9 @@
+#include "factorizations/lapack.hpp"
 #include "foundation/error.hpp"
 #include "room_operators.hpp"
 #include "solvers/sampled_certificate.hpp"
 #include "solvers/solver_registry.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Lit {
 Lit lit_room(Index n, double reflectance) {
   Lit lit{chained_rooms(2, n / 2, 0.05, 12, reflectance), {}, random_lights(n, 1, 5), {}};
   lit.F = lit.room.transport(0) / reflectance;
-  lit.truth = (Eigen::MatrixXd::Identity(n, n) - lit.room.transport(0)).lu().solve(lit.emission);
+  lit.truth = LuFactors(Eigen::MatrixXd::Identity(n, n) - lit.room.transport(0)).solve(lit.emission);
   return lit;
 }
 
