@@ -130,11 +130,13 @@ ReportSection changing_lights_section(const ChangingLights& lights, const fs::pa
   ReportSection section{"Changing lights in a patio (document 004, Section 5.4 and Figure 4)", {}};
   section.blocks.emplace_back(ReportText{fmt::format(
       "{} lamps take turns, a lit arc going round the court one way below and the other way above. U of {} × "
-      "{} comes from {:.3g} million rays in {:.3g} s. With one U and a k × k matrix for each channel a frame "
-      "in "
-      "colour reads a third of what three Y take, for the same answers up to {:.1g}.",
+      "{} comes from {:.3g} million rays in {:.3g} s. One U and a k × k matrix for each channel take {:.0f} "
+      "% of "
+      "the bytes of a Y for each channel, for the same answers up to {:.1g}.",
       lights.powers.cols(), lights.mesh->patch_count(), lights.coarse_patches,
-      1e-6 * static_cast<double>(lights.rays), lights.factor_seconds, lights.largest_disagreement)});
+      1e-6 * static_cast<double>(lights.rays), lights.factor_seconds,
+      100 * static_cast<double>(lights.shared_factor_bytes) / static_cast<double>(lights.three_factor_bytes),
+      lights.largest_disagreement)});
   section.blocks.emplace_back(frame_table(lights, command));
   section.blocks.emplace_back(png_figure(
       strip, fmt::format("Frames of a turn of {}: B in all bounces.", lights.powers.rows()), command));

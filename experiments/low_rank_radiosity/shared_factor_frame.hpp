@@ -12,8 +12,8 @@ namespace radiosity {
 
 /// All bounces in all colours from one U: B_c = E_c + R_c U C_c^{-1} (V' E_c), C_c = I - V' R_c U. Where
 /// document 004 stores a Y for every channel, this stores U, which knows no reflectance, and a k x k matrix a
-/// channel: a third of the memory and of what a frame reads, and new colours need no new Y. Fields are sorted
-/// by patch, as V and U are.
+/// channel: n k + 6 k^2 floats in place of 3 n k for three channels, and new colours need no new Y. Fields
+/// are sorted by patch, as V and U are.
 class SharedFactorFrame {
  public:
   /// `reflectance`: n x c. V and U are used, not copied. Throws as transposed_capacitance().
