@@ -22,12 +22,19 @@ template <typename Scalar, int columns, bool to_rows, bool to_columns>
 class TileLoop {
  public:
   explicit TileLoop(const TileTask<Scalar>& task)
-      : task_(task), entries_(task.entries), stride_(task.stride) {}
+      : entries_(task.entries),
+        stride_(task.stride),
+        rows_(task.rows),
+        first_(task.first),
+        prefetch_(task.prefetch),
+        x_columns_(task.x_columns),
+        x_rows_(task.x_rows),
+        row_lanes_(task.row_lanes) {}
 
-  void run() const {
-    for (int first = 0; first < block; first += strip) multiply_strip(first);
+  [[gnu::always_inline]] inline void run(const TileTask<Scalar>& task) const {
+    for (int first = 0; first < block; first += strip) multiply_strip(task, first);
     if constexpr (to_rows)
-      if (task_.last) add_row_sums();
+      if (task.last) add_row_sums(task);
   }
 
  private:
@@ -40,9 +47,9 @@ class TileLoop {
   static constexpr int rows_together = strip_rows<Number, columns, to_columns>;
 
   /// All rows, `strip` columns wide from column `first`.
-  [[gnu::always_inline]] inline void multiply_strip(int first) const {
-    const int rows = task_.rows;
-    const bool fresh = task_.first && first == 0;
+  [[gnu::always_inline]] inline void multiply_strip(const TileTask<Scalar>& task, int first) const {
+    const int rows = rows_;
+    const bool fresh = first_ && first == 0;
     Vector down[columns][vectors];
 #pragma GCC unroll 8
     for (int c = 0; c < columns; ++c)
@@ -56,7 +63,7 @@ class TileLoop {
       for (int c = 0; c < columns; ++c)
 #pragma GCC unroll 8
         for (int v = 0; v < vectors; ++v)
-          L::add_scaled(task_.y_columns + c * block + first + v * width, down[c][v], task_.x_rows_scale[c]);
+          L::add_scaled(task.y_columns + c * block + first + v * width, down[c][v], task.x_rows_scale[c]);
   }
 
   /// `count` rows side by side, which share the loads of X.
@@ -72,7 +79,7 @@ class TileLoop {
 #pragma GCC unroll 8
       for (int k = 0; k < count; ++k) {
         if constexpr (to_rows) across[c][k] = fresh ? L::zero() : L::load(lanes(c, r + k));
-        if constexpr (to_columns) x_rows[c][k] = L::broadcast(task_.x_rows[c * block + r + k]);
+        if constexpr (to_columns) x_rows[c][k] = L::broadcast(x_rows_[c * block + r + k]);
       }
 #pragma GCC unroll 8
     for (int v = 0; v < vectors; ++v) {
@@ -82,7 +89,7 @@ class TileLoop {
 #pragma GCC unroll 8
       for (int c = 0; c < columns; ++c) {
         if constexpr (to_rows) {
-          const Vector x = L::load(task_.x_columns + c * block + first + v * width);
+          const Vector x = L::load(x_columns_ + c * block + first + v * width);
 #pragma GCC unroll 8
           for (int k = 0; k < count; ++k) across[c][k] = L::multiply_add(entry[k], x, across[c][k]);
         }
@@ -100,37 +107,44 @@ class TileLoop {
 
   template <int count>
   [[gnu::always_inline]] inline void fetch_ahead(std::ptrdiff_t offset) const {
-    const char* ahead = task_.prefetch;
-    if (ahead == nullptr) return;
+    if (prefetch_ == nullptr) return;
+    constexpr int into_second_cache = 2;
+    constexpr int strip_bytes = strip * static_cast<int>(sizeof(Scalar));
 #pragma GCC unroll 8
-    for (int k = 0; k < count; ++k)
+    for (int k = 0; k < count; ++k) {
+      const char* row = prefetch_ + (offset + k * stride_) * static_cast<std::ptrdiff_t>(sizeof(Scalar));
 #pragma GCC unroll 8
-      for (int byte = 0; byte < strip * static_cast<int>(sizeof(Scalar)); byte += 64)
-        __builtin_prefetch(ahead + (offset + k * stride_) * static_cast<std::ptrdiff_t>(sizeof(Scalar)) +
-                           byte);
-  }
-
-  Number* lanes(int column, int row) const {
-    return task_.row_lanes + (column * block + row) * width;
-  }
-
-  void add_row_sums() const {
-    const int whole_rows = (task_.rows + width - 1) / width * width;
-    for (int c = 0; c < columns; ++c) {
-      for (int r = task_.rows; r < whole_rows; ++r) L::store(lanes(c, r), L::zero());
-      for (int r = 0; r < whole_rows; r += width)
-        L::add_scaled(task_.y_rows + c * block + r, L::row_sums(lanes(c, r)), task_.x_columns_scale[c]);
+      for (int byte = 0; byte < strip_bytes; byte += 64) __builtin_prefetch(row + byte, 0, into_second_cache);
     }
   }
 
-  const TileTask<Scalar>& task_;
+  Number* lanes(int column, int row) const {
+    return row_lanes_ + (column * block + row) * width;
+  }
+
+  void add_row_sums(const TileTask<Scalar>& task) const {
+    const int whole_rows = (rows_ + width - 1) / width * width;
+    for (int c = 0; c < columns; ++c) {
+      for (int r = rows_; r < whole_rows; ++r) L::store(lanes(c, r), L::zero());
+      for (int r = 0; r < whole_rows; r += width)
+        L::add_scaled(task.y_rows + c * block + r, L::row_sums(lanes(c, r)), task.x_columns_scale[c]);
+    }
+  }
+
+  // Copies, which stay in registers: stores of vectors might alias the task.
   const Scalar* entries_;
   std::ptrdiff_t stride_;
+  int rows_;
+  bool first_;
+  const char* prefetch_;
+  const Number* x_columns_;
+  const Number* x_rows_;
+  Number* row_lanes_;
 };
 
 template <typename Scalar, int columns, bool to_rows, bool to_columns>
 void multiply_tile(const TileTask<Scalar>& task) {
-  TileLoop<Scalar, columns, to_rows, to_columns>(task).run();
+  TileLoop<Scalar, columns, to_rows, to_columns>(task).run(task);
 }
 
 template <typename Scalar>
