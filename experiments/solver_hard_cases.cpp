@@ -187,18 +187,18 @@ HardCaseOutcome known_solutions(const HardCaseSubject& subject,
   return HardCaseOutcome::of_ratio(worst, {}, 1e-3);
 }
 
-HardCaseOutcome furnaces(const HardCaseSubject& subject) {
+HardCaseOutcome solved_furnaces(const HardCaseSubject& subject) {
   return known_solutions(subject, furnace);
 }
 
-HardCaseOutcome spheres(const HardCaseSubject& subject) {
+HardCaseOutcome solved_spheres(const HardCaseSubject& subject) {
   const HardCaseOutcome sphere = known_solutions(subject, lit_sphere);
   const HardCaseOutcome bowl = known_solutions(subject, lit_bowl);
   return bowl.ratio.value_or(0) > sphere.ratio.value_or(0) ? bowl : sphere;
 }
 
 /// S1: products and true residuals.
-HardCaseOutcome chains(const HardCaseSubject& subject) {
+HardCaseOutcome solved_chains(const HardCaseSubject& subject) {
   double worst = 0;
   std::string note = "products";
   std::set<std::string> refusals;
@@ -231,9 +231,9 @@ std::vector<HardCase> solver_hard_cases() {
        nearly_singular},
       {"R3", "areas 1e-6 to 1e6, reflectances 0.01 to 0.999: error over its certificate", uneven_areas},
       {"R4", "error times (1 - ||T||) over the residual that it stopped at", stopping},
-      {"E1", "furnace, B = E / (1 - rho): error over tolerance / (1 - rho)", furnaces},
-      {"E2", "inside of a sphere and of a bowl: error over tolerance / (1 - rho)", spheres},
-      {"S1", "chains of 2, 5, 10 rooms at 0.99 and 0.9999: residual over tolerance", chains},
+      {"E1", "furnace, B = E / (1 - rho): error over tolerance / (1 - rho)", solved_furnaces},
+      {"E2", "inside of a sphere and of a bowl: error over tolerance / (1 - rho)", solved_spheres},
+      {"S1", "chains of 2, 5, 10 rooms at 0.99 and 0.9999: residual over tolerance", solved_chains},
   };
 }
 

@@ -9,14 +9,14 @@
 namespace radiosity {
 namespace {
 
-constexpr double margin = 14;
+constexpr double figure_margin = 14;
 
 }  // namespace
 
 std::string to_svg(const Plot& plot) {
   if (plot.panels.empty()) fail<UsageError>("the plot '{}' has no panels to show", plot.title);
   const double head = plot.title.empty() ? 8 : 36;
-  const double width = margin + static_cast<double>(plot.panels.size()) * (plot.panel_width + margin);
+  const double width = figure_margin + static_cast<double>(plot.panels.size()) * (plot.panel_width + figure_margin);
   const double height = head + plot.panel_height + 8;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
@@ -25,11 +25,11 @@ std::string to_svg(const Plot& plot) {
   svg += plot_style();
   svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" class=\"plot-paper\"/>\n", width, height);
   if (!plot.title.empty())
-    svg += svg_text(margin, 23, plot.title, "class=\"plot-ink\" font-weight=\"600\" font-size=\"15\"");
-  double left = margin;
+    svg += svg_text(figure_margin, 23, plot.title, "class=\"plot-ink\" font-weight=\"600\" font-size=\"15\"");
+  double left = figure_margin;
   for (const PlotPanel& panel : plot.panels) {
     svg += draw_panel(panel, left, head, plot.panel_width, plot.panel_height);
-    left += plot.panel_width + margin;
+    left += plot.panel_width + figure_margin;
   }
   return svg + "</svg>\n";
 }

@@ -10,11 +10,11 @@
 namespace radiosity {
 namespace {
 
-constexpr Index size = QuantizedTiles::tile_size;
+constexpr Index tile_size = QuantizedTiles::tile_size;
 
 /// What one tile adds to the sums of its 64 rows, and, off the diagonal, of its 64 columns.
 struct TileSums {
-  using Sums = std::array<double, size>;
+  using Sums = std::array<double, tile_size>;
   Sums rows[3] = {};  // of the difference's magnitude, of K, of K~
   Sums columns[3] = {};
   double squares = 0;
@@ -32,9 +32,9 @@ class TileComparison {
     const Index kept = approximation_.directory().find_tile(I, J);
     if (kept >= 0) approximation_.decode(kept, decoded.data());
     TileSums sums;
-    for (Index r = 0; r < std::min(size, K_.size() - I * size); ++r)
-      for (Index c = 0; c < std::min(size, K_.size() - J * size); ++c) {
-        const double truth = K_.scale() * K_.tile_data(tile)[r * size + c];
+    for (Index r = 0; r < std::min(tile_size, K_.size() - I * tile_size); ++r)
+      for (Index c = 0; c < std::min(tile_size, K_.size() - J * tile_size); ++c) {
+        const double truth = K_.scale() * K_.tile_data(tile)[r * tile_size + c];
         const double approximate = approximation_.scale() * entry(decoded, I == J, r, c);
         add(sums, I, J, r, c, {std::fabs(approximate - truth), truth, approximate});
       }
@@ -45,7 +45,7 @@ class TileComparison {
   static double entry(const std::array<float, QuantizedTiles::tile_entries>& decoded, bool diagonal, Index r,
                       Index c) {
     const auto at = [&](Index i, Index j) {
-      return static_cast<double>(decoded[static_cast<std::size_t>(i * size + j)]);
+      return static_cast<double>(decoded[static_cast<std::size_t>(i * tile_size + j)]);
     };
     return diagonal ? at(r, c) + at(c, r) : at(r, c);
   }
@@ -54,8 +54,8 @@ class TileComparison {
     const auto row = static_cast<std::size_t>(r), column = static_cast<std::size_t>(c);
     sums.squares += (I == J ? 1 : 2) * values[0] * values[0];
     for (std::size_t k = 0; k < 3; ++k) {
-      sums.rows[k][row] += values[k] * root_area_[J * size + c];
-      if (I != J) sums.columns[k][column] += values[k] * root_area_[I * size + r];
+      sums.rows[k][row] += values[k] * root_area_[J * tile_size + c];
+      if (I != J) sums.columns[k][column] += values[k] * root_area_[I * tile_size + r];
     }
   }
 
@@ -82,10 +82,10 @@ KernelError kernel_error(const SymmetricTiles<double>& K, const QuantizedTiles& 
       const Index J = K.tile_column(first + static_cast<Index>(tile));
       squares += row[tile].squares;
       for (std::size_t k = 0; k < 3; ++k) {
-        for (Index r = 0; r < std::min(size, K.size() - I * size); ++r)
-          sums[k][I * size + r] += row[tile].rows[k][static_cast<std::size_t>(r)];
-        for (Index c = 0; c < std::min(size, K.size() - J * size); ++c)
-          sums[k][J * size + c] += row[tile].columns[k][static_cast<std::size_t>(c)];
+        for (Index r = 0; r < std::min(tile_size, K.size() - I * tile_size); ++r)
+          sums[k][I * tile_size + r] += row[tile].rows[k][static_cast<std::size_t>(r)];
+        for (Index c = 0; c < std::min(tile_size, K.size() - J * tile_size); ++c)
+          sums[k][J * tile_size + c] += row[tile].columns[k][static_cast<std::size_t>(c)];
       }
     }
   }
