@@ -5,12 +5,10 @@ target_compile_options(radiosity_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -Werror -fno-math-errno -ffp-contract=off)
 if(RADIOSITY_SANITIZE)
-  # Checks of every dereference cost half the compilation; a null pointer ends in a report of the address sanitizer anyway, and
-  # alignment matters where memory and the bytes of files are handled (RADIOSITY_HANDLES_MEMORY). Of tests only the calls into
-  # the libraries are of interest. GCC's flow analysis does not see through the instrumentation.
+  # Checks of every dereference cost half the compilation; a null pointer ends in a report of the address sanitizer anyway. Of
+  # tests only the calls into the libraries are of interest. GCC's flow analysis does not see through the instrumentation.
   target_compile_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE} -fno-omit-frame-pointer
                          -fno-sanitize-recover=all -fno-sanitize=null,object-size,vptr -Wno-maybe-uninitialized
-                         $<$<NOT:$<BOOL:$<TARGET_PROPERTY:RADIOSITY_HANDLES_MEMORY>>>:-fno-sanitize=alignment>
                          $<$<BOOL:$<TARGET_PROPERTY:RADIOSITY_IS_TEST>>:-fno-sanitize=undefined>)
   target_link_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE})
 endif()
@@ -23,9 +21,6 @@ function(radiosity_library name)
   add_library(${target} ${sources})
   add_library(radiosity::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  if(name MATCHES "^(foundation|kernels|compression|scene|render)$")
-    set_target_properties(${target} PROPERTIES RADIOSITY_HANDLES_MEMORY ON)
-  endif()
   if(CMAKE_BUILD_TYPE STREQUAL Release AND name MATCHES "^(scene|solvers|experiments)$")
     target_compile_options(${target} PRIVATE -O2)  # few loops of their own: -O3 costs a third of the compilation
   endif()
