@@ -16,7 +16,8 @@ constexpr double figure_margin = 14;
 std::string to_svg(const Plot& plot) {
   if (plot.panels.empty()) fail<UsageError>("the plot '{}' has no panels to show", plot.title);
   const double head = plot.title.empty() ? 8 : 36;
-  const double width = figure_margin + static_cast<double>(plot.panels.size()) * (plot.panel_width + figure_margin);
+  const double width =
+      figure_margin + static_cast<double>(plot.panels.size()) * (plot.panel_width + figure_margin);
   const double height = head + plot.panel_height + 8;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
