@@ -1,19 +1,16 @@
 #include "experiments/first_light.hpp"
 
 #include "experiments/first_light_files.hpp"
-#include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 #include "render/write_solution.hpp"
 
-#include <system_error>
 
 namespace radiosity {
 
 ReportSection first_light(const std::filesystem::path& folder, const std::string& command,
                           const FirstLightOptions& options, const OperatorRegistry& operators,
                           const SolverRegistry& solvers, Monitor& monitor) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
 
   const FirstLightMeasurement measurement = measure_first_light(options, operators, solvers, monitor);
   write_first_light_json(folder / "first_light.json", measurement);

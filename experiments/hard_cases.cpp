@@ -1,14 +1,13 @@
 #include "experiments/hard_cases.hpp"
 
 #include "experiments/json_objects.hpp"
-#include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <exception>
-#include <system_error>
 #include <utility>
 
 namespace radiosity {
@@ -186,9 +185,7 @@ ReportSection hard_case_section(const HardCaseTable& operators, const HardCaseTa
 
 ReportSection hard_cases(const std::filesystem::path& folder, const std::string& command,
                          const OperatorRegistry& operators, const SolverRegistry& solvers, Monitor& monitor) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
   const HardCaseTable of_operators =
       run_hard_cases(operator_hard_cases(), hard_case_operators(operators), operators, solvers, monitor);
   const HardCaseTable of_solvers =

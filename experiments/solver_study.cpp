@@ -3,7 +3,6 @@
 #include "experiments/json_objects.hpp"
 #include "experiments/svg_plot.hpp"
 #include "form_factors/form_factors.hpp"
-#include "foundation/error.hpp"
 #include "foundation/output_file.hpp"
 #include "foundation/stopwatch.hpp"
 #include "scene/built_in.hpp"
@@ -13,7 +12,6 @@
 
 #include <algorithm>
 #include <set>
-#include <system_error>
 
 namespace radiosity {
 
@@ -185,9 +183,7 @@ ReportSection solver_section(const std::vector<SolverRun>& runs, const SolverStu
 ReportSection solver_study(const std::filesystem::path& folder, const std::string& command,
                            const SolverStudyOptions& options, const OperatorRegistry& operators,
                            const SolverRegistry& solvers, Monitor& monitor) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
   const std::vector<SolverRun> runs = measure_solvers(options, operators, solvers, monitor);
   write_solver_files(folder, runs);
   return solver_section(runs, options, command);

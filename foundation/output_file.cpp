@@ -40,4 +40,10 @@ void OutputFile::commit() {
   committed_ = true;
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+}
+
 }  // namespace radiosity

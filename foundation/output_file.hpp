@@ -30,4 +30,7 @@ class OutputFile {
   bool committed_ = false;
 };
 
+/// Makes a folder and those above it that are missing; throws Error where it cannot be made.
+void make_folder(const std::filesystem::path& folder);
+
 }  // namespace radiosity

@@ -26,25 +26,12 @@ CapacitanceMatrix::CapacitanceMatrix(Eigen::MatrixXd C, double norm, double norm
 
 CapacitanceMatrices::CapacitanceMatrices(const LowRankFactors& factors)
     : reflectances_(factors.albedo()), patches_(factors.albedo().rows()) {
-  constexpr Index columns_together = 64;
-  const Index rank = factors.rank();
-  std::vector<Eigen::MatrixXd> matrices(static_cast<std::size_t>(reflectances_.count()),
-                                        Eigen::MatrixXd::Identity(rank, rank));
-  for (Index first = 0; first < rank; first += columns_together) {
-    const Index columns = std::min(columns_together, rank - first);
-    Field unit = Field::Zero(rank, columns);
-    unit.middleRows(first, columns).setIdentity();
-    Field left(patches_, columns);
-    factors.multiply_left(unit, left);  // U
-    for (Index distinct = 0; distinct < reflectances_.count(); ++distinct) {
-      const auto reflectance = factors.albedo().col(reflectances_.representative(distinct));
-      Field product(rank, columns);
-      factors.multiply_right_transposed(reflectance.asDiagonal() * left, product);
-      matrices[static_cast<std::size_t>(distinct)].middleCols(first, columns) -= product;
-    }
-  }
-  matrices_.reserve(matrices.size());
-  for (Eigen::MatrixXd& matrix : matrices) matrices_.emplace_back(std::move(matrix));
+  Field diagonals(patches_, reflectances_.count());
+  for (Index distinct = 0; distinct < reflectances_.count(); ++distinct)
+    diagonals.col(distinct) = factors.albedo().col(reflectances_.representative(distinct));
+  matrices_.reserve(static_cast<std::size_t>(diagonals.cols()));
+  for (const Eigen::MatrixXd& product : factors.multiply_between(diagonals))
+    matrices_.emplace_back(Eigen::MatrixXd::Identity(product.rows(), product.cols()) - product);
 }
 
 double CapacitanceMatrices::reciprocal_condition() const {

@@ -31,7 +31,7 @@ class CapacitanceMatrix {
 };
 
 /// The capacitance matrices C = I - V' R U of an operator T = R U V' of low rank (document 004, Eqs. 4 and
-/// 5), k x k, one a distinct column of R: made by k products with U and V.
+/// 5), k x k, one a distinct column of R.
 class CapacitanceMatrices {
  public:
   explicit CapacitanceMatrices(const LowRankFactors& factors);

@@ -10,6 +10,28 @@
 
 namespace radiosity {
 
+std::vector<Eigen::MatrixXd> LowRankFactors::multiply_between(const ConstFieldRef& diagonals) const {
+  constexpr Index columns_at_most = 64;
+  constexpr Index numbers_together = Index{1} << 23;  // 64 MiB
+  const Index n = diagonals.rows();
+  const Index columns_together =
+      std::clamp(numbers_together / std::max<Index>(n, 1), Index{3}, columns_at_most);
+  std::vector<Eigen::MatrixXd> products(static_cast<std::size_t>(diagonals.cols()),
+                                        Eigen::MatrixXd(rank(), rank()));
+  for (Index first = 0; first < rank(); first += columns_together) {
+    const Index columns = std::min(columns_together, rank() - first);
+    Field unit = Field::Zero(rank(), columns);
+    unit.middleRows(first, columns).setIdentity();
+    Field left(n, columns);
+    multiply_left(unit, left);
+    for (Index d = 0; d < diagonals.cols(); ++d) {
+      const Field weighted = diagonals.col(d).asDiagonal() * left;
+      multiply_right_transposed(weighted, products[static_cast<std::size_t>(d)].middleCols(first, columns));
+    }
+  }
+  return products;
+}
+
 template <typename Scalar>
 LowRankOperator<Scalar>::LowRankOperator(const FormFactors& form_factors, const Eigen::MatrixXd& U,
                                          const Eigen::MatrixXd& V, std::string spec, std::string remark)

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace radiosity {
 
@@ -23,6 +24,9 @@ class LowRankFactors {
   virtual void multiply_left(const ConstFieldRef& C, FieldRef Y) const = 0;
   /// C = V' X, k x c from n x c.
   virtual void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const = 0;
+  /// V' diag(d) U, k x k, for each column d of `diagonals` (n x c): k products with U and V, some columns at
+  /// a time, unless there is a shorter way.
+  virtual std::vector<Eigen::MatrixXd> multiply_between(const ConstFieldRef& diagonals) const;
   /// R, n x channels.
   virtual const Eigen::MatrixXd& albedo() const = 0;
   /// What multiply_right_transposed reads.

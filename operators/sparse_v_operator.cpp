@@ -1,5 +1,6 @@
 #include "operators/sparse_v_operator.hpp"
 
+#include "kernels/segment_products.hpp"
 #include "kernels/segment_sums.hpp"
 #include "operators/storage_choice.hpp"
 
@@ -37,6 +38,17 @@ void SparseVOperator<Scalar>::multiply_left(const ConstFieldRef& C, FieldRef Y) 
 template <typename Scalar>
 void SparseVOperator<Scalar>::multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const {
   segment_sums(V_, X, C);
+}
+
+template <typename Scalar>
+std::vector<Eigen::MatrixXd> SparseVOperator<Scalar>::multiply_between(const ConstFieldRef& diagonals) const {
+  std::vector<Eigen::MatrixXd> products;
+  for (Index d = 0; d < diagonals.cols(); ++d) {
+    const Eigen::VectorXd sorted =
+        V_.order().empty() ? Eigen::VectorXd(diagonals.col(d)) : Eigen::VectorXd(diagonals(V_.order(), d));
+    products.emplace_back(transposed_segment_products(V_, sorted, U_).transpose());
+  }
+  return products;
 }
 
 template <typename Scalar>

@@ -5,6 +5,7 @@
 #include "operators/low_rank_operator.hpp"
 
 #include <string>
+#include <vector>
 
 namespace radiosity {
 
@@ -25,6 +26,8 @@ class SparseVOperator final : public MatrixOperator, public LowRankFactors {
   Index rank() const override { return U_.columns(); }
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
   void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override;
+  /// In one pass over U for each.
+  std::vector<Eigen::MatrixXd> multiply_between(const ConstFieldRef& diagonals) const override;
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
   std::size_t right_bytes() const override {
     return V_.offset_bytes() + V_.order_bytes() + V_.weight_bytes();

@@ -5,6 +5,7 @@
 #include "experiments/machine.hpp"
 #include "experiments/reference_solution.hpp"
 #include "experiments/taking_turns.hpp"
+#include "form_factors/coherent_mesh.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/stopwatch.hpp"
@@ -76,7 +77,8 @@ class LampRoom {
       : lamps_(lamps_of(mesh)) {
     lights.powers = turning_powers(lamps_, options.frames);
     const Stopwatch factor_watch;
-    const auto coarse = uniform_coarse_mesh(mesh, options.coarse_patches, Assignment::inclusion);
+    const auto coarse =
+        coherent_coarse_mesh(mesh, options.coarse_patches, Assignment::inclusion, {.seed = options.seed});
     if (!coarse)
       fail<UsageError>("'{}' has more than {} faces: ask for a larger k", mesh.scene->name,
                        options.coarse_patches);

@@ -3,13 +3,12 @@
 #include "experiments/low_rank_radiosity/error_study_measures.hpp"
 #include "experiments/low_rank_radiosity/patch_drawing.hpp"
 #include "experiments/svg_plot.hpp"
-#include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 namespace radiosity {
@@ -96,16 +95,10 @@ void write_changing_lights_json(const fs::path& file, const ChangingLights& ligh
                     {"times", times}});
 }
 
-void require_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
-}
-
 /// One file a picture, and some of them side by side.
 void draw_frames(const fs::path& folder, const fs::path& strip, const ChangingLights& lights,
                  const ChangingLightsOptions& options, Monitor& monitor) {
-  require_folder(folder);
+  make_folder(folder);
   std::vector<Picture> pictures;
   for (const Field& B : lights.radiosity) {
     monitor.checkpoint("drawing frames",
@@ -146,7 +139,7 @@ ReportSection changing_lights_section(const ChangingLights& lights, const fs::pa
 
 ReportSection changing_lights(const fs::path& folder, const std::string& command,
                               const ChangingLightsOptions& options, Monitor& monitor) {
-  require_folder(folder);
+  make_folder(folder);
   const ChangingLights lights = measure_changing_lights(options, monitor);
   write_changing_lights_json(folder / "low_rank_patio.json", lights);
   const fs::path strip = folder / "low_rank_patio.png";

@@ -6,6 +6,7 @@
 #include "experiments/reference_solution.hpp"
 #include "form_factors/coherent_mesh.hpp"
 #include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 #include "foundation/parallel.hpp"
 #include "render/tone_mapping.hpp"
 #include "scene/built_in.hpp"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <system_error>
 #include <utility>
 
 namespace radiosity {
@@ -124,9 +124,7 @@ CoherenceMeasurement measure_coherence(const CoherencePictureOptions& options, M
 
 ReportSection low_rank_pictures(const std::filesystem::path& folder, const std::string& command,
                                 const CoherencePictureOptions& options, Monitor& monitor) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
 
   const CoherenceMeasurement measurement = measure_coherence(options, monitor);
   write_coherence_json(folder / "low_rank_pictures.json", measurement);

@@ -4,6 +4,7 @@
 #include "experiments/json_objects.hpp"
 #include "form_factors/form_factors.hpp"
 #include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 #include "scene/built_in.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 namespace radiosity {
 namespace {
@@ -155,9 +155,7 @@ std::vector<EqualCostRow> measure_equal_cost(const EqualCostOptions& options,
 ReportSection equal_cost(const std::filesystem::path& folder, const std::string& command,
                          const EqualCostOptions& options, const OperatorRegistry& operators,
                          const SolverRegistry& solvers, Monitor& monitor) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
   const std::vector<EqualCostRow> rows = measure_equal_cost(options, operators, solvers, monitor);
   Json list = Json::array();
   for (const EqualCostRow& row : rows)

@@ -5,6 +5,7 @@
 #include "experiments/low_rank_radiosity/error_study_problem.hpp"
 #include "experiments/low_rank_radiosity/error_study_spectrum.hpp"
 #include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "scene/built_in.hpp"
 #include "solvers/solver_registry.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <system_error>
 #include <utility>
 
 namespace radiosity {
@@ -155,9 +155,7 @@ ErrorStudy measure_low_rank_errors(const ErrorStudyOptions& options, const Opera
 ReportSection low_rank_errors(const std::filesystem::path& folder, const std::string& command,
                               const ErrorStudyOptions& options, const OperatorRegistry& operators,
                               Monitor& monitor) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
   const ErrorStudy study = measure_low_rank_errors(options, operators, monitor);
   write_error_study(folder, study);
   return error_study_section(study, command);

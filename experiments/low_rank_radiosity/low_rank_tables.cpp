@@ -6,6 +6,7 @@
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 #include "experiments/low_rank_radiosity/published_tables.hpp"
 #include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/random.hpp"
 #include "foundation/stopwatch.hpp"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <sys/resource.h>
-#include <system_error>
 #include <utility>
 
 namespace radiosity {
@@ -134,9 +134,7 @@ LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, Monit
 
 ReportSection low_rank_tables(const std::filesystem::path& folder, const std::string& command,
                               const LowRankTablesOptions& options, Monitor& monitor) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
   const LowRankTables tables = measure_low_rank_tables(options, monitor);
   write_low_rank_tables(folder, tables);
   return low_rank_tables_section(tables, options, command);

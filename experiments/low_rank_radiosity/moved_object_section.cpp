@@ -1,14 +1,13 @@
 #include "experiments/json_objects.hpp"
 #include "experiments/low_rank_radiosity/moved_object.hpp"
 #include "experiments/low_rank_radiosity/patch_drawing.hpp"
-#include "foundation/error.hpp"
+#include "foundation/output_file.hpp"
 #include "scene/patch_mesh.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <system_error>
 #include <vector>
 
 namespace radiosity {
@@ -79,9 +78,7 @@ ReportSection moved_object_section(const MovedObject& object, const fs::path& st
 
 ReportSection moved_object(const fs::path& folder, const std::string& command,
                            const MovedObjectOptions& options, Monitor& monitor) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
+  make_folder(folder);
   const MovedObject object = measure_moved_object(options, monitor);
   write_moved_object_json(folder / "low_rank_motion.json", object);
   std::vector<Picture> pictures;

@@ -2,6 +2,7 @@
 
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
+#include "kernels/segment_products.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,39 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index factor_panel = TallMatrix<float>::panel_rows;
-
-/// Column p of (V' R U)', the sum of V_ep rho_e U(e, :) over the rows e of segment p.
-void add_segment(const Segments& V, const TallMatrix<float>& U, const VectorXd& reflectance, Index p,
-                 Eigen::Ref<VectorXd> sums) {
-  const Index end = V.offsets()[static_cast<std::size_t>(p) + 1];
-  for (Index first = V.offsets()[static_cast<std::size_t>(p)]; first < end;) {
-    const Index panel = first / factor_panel;
-    const Index last = std::min(end, (panel + 1) * factor_panel);
-    for (Index q = 0; q < U.columns(); ++q) {
-      const float* column = U.panel(panel) + q * factor_panel - panel * factor_panel;
-      double sum = 0;
-      for (Index e = first; e < last; ++e) {
-        const double weight = V.weights().empty() ? 1 : V.weights()[static_cast<std::size_t>(e)];
-        sum += weight * reflectance[e] * static_cast<double>(column[e]);
-      }
-      sums[q] += U.scale() * sum;
-    }
-    first = last;
-  }
-}
-
-/// (I - V' R U)', k x k.
-MatrixXd transposed_difference(const Segments& V, const TallMatrix<float>& U, const VectorXd& reflectance) {
-  MatrixXd matrix(U.columns(), U.columns());
-  parallel_for(static_cast<std::size_t>(U.columns()), [&](std::size_t index) {
-    const auto p = static_cast<Index>(index);
-    VectorXd sums = VectorXd::Zero(U.columns());
-    add_segment(V, U, reflectance, p, sums);
-    matrix.col(p) = -sums;
-    matrix(p, p) += 1;
-  });
-  return matrix;
-}
 
 /// -(R U)' of `count` rows, k x count.
 MatrixXd reflected_rows(const TallMatrix<float>& U, const VectorXd& reflectance, Index first, Index count) {
@@ -74,10 +42,8 @@ void store_rows(const MatrixXd& transposed, Index first, TallMatrix<float>& Y) {
 
 CapacitanceMatrix transposed_capacitance(const Segments& V, const TallMatrix<float>& U,
                                          const VectorXd& reflectance) {
-  if (V.rows() != U.rows() || V.count() != U.columns() || reflectance.size() != U.rows())
-    fail<UsageError>("V of {} x {}, U of {} x {} and {} reflectances do not fit", V.rows(), V.count(),
-                     U.rows(), U.columns(), reflectance.size());
-  CapacitanceMatrix capacitance(transposed_difference(V, U, reflectance));
+  CapacitanceMatrix capacitance(MatrixXd::Identity(U.columns(), U.columns()) -
+                                transposed_segment_products(V, reflectance, U));
   constexpr double unit_roundoff = 0x1p-53;
   if (capacitance.reciprocal_condition() < static_cast<double>(U.rows()) * unit_roundoff)
     fail("I - V' R U is singular (reciprocal condition {:.1e}): light never dies out; lower the reflectances",

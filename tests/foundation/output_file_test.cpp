@@ -69,5 +69,13 @@ TEST_F(OutputFileTest, RefusesFoldersAndMissingFolders) {
   }
 }
 
+TEST_F(OutputFileTest, FoldersAreMadeWithThoseAbove) {
+  make_folder(folder_ / "a" / "b");
+  make_folder(folder_ / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));
+  std::ofstream(folder_ / "file") << "text";
+  EXPECT_THROW(make_folder(folder_ / "file" / "c"), Error);
+}
+
 }  // namespace
 }  // namespace radiosity

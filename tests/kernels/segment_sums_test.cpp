@@ -1,5 +1,6 @@
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
+#include "kernels/segment_products.hpp"
 #include "kernels/segment_sums.hpp"
 #include "product_reference.hpp"
 
@@ -166,6 +167,50 @@ TEST(SegmentSums, RefuseShapesThatDoNotFit) {
   Eigen::MatrixXd five(5, 1);
   EXPECT_THROW(segment_sums(V, two, five), UsageError);
   EXPECT_THROW(spread_segments(V, five, two), UsageError);
+}
+
+/// Of stored numbers, so that only the sums differ.
+template <typename Scalar>
+void expect_right_segment_products(Index n, Index count, bool weighted) {
+  const Segments V = random_segments(n, count, weighted, 71);
+  RandomStream random(72);
+  TallMatrix<Scalar> U(n, count, 0.5);
+  Eigen::MatrixXd entries(n, count);
+  Eigen::VectorXd diagonal(n);
+  for (Index e = 0; e < n; ++e) {
+    diagonal[e] = random.uniform(-1, 1);
+    for (Index p = 0; p < count; ++p) {
+      U.set(e, p, random.uniform(-1, 1));
+      entries(e, p) = U(e, p);
+    }
+  }
+  const Eigen::MatrixXd full = full_matrix(V, RowOrder::sorted);
+  const Eigen::MatrixXd exact = entries.transpose() * diagonal.asDiagonal() * full;
+  const Eigen::MatrixXd sizes =
+      entries.cwiseAbs().transpose() * diagonal.cwiseAbs().asDiagonal() * full.cwiseAbs();
+  const ThreadLimit one(1);
+  const Eigen::MatrixXd products = transposed_segment_products(V, diagonal, U);
+  EXPECT_TRUE(
+      ((products - exact).cwiseAbs().array() <= 2 * static_cast<double>(n) * 0x1p-53 * sizes.array()).all());
+  const ThreadLimit all(8);
+  EXPECT_EQ(transposed_segment_products(V, diagonal, U), products);
+}
+
+TEST(SegmentProducts, AreThoseOfTheFullMatrices) {
+  for (const bool weighted : {false, true}) {
+    for (const Index n : {1, 5, 64, 65, 700}) expect_right_segment_products<double>(n, 9, weighted);
+    expect_right_segment_products<float>(900, 40, weighted);
+  }
+}
+
+TEST(SegmentProducts, ShapesThatDoNotFitAreRefused) {
+  const Segments V = random_segments(30, 4, false, 73);
+  EXPECT_THROW(transposed_segment_products(V, Eigen::VectorXd::Ones(29), TallMatrix<float>(30, 4)),
+               UsageError);
+  EXPECT_THROW(transposed_segment_products(V, Eigen::VectorXd::Ones(30), TallMatrix<float>(31, 4)),
+               UsageError);
+  EXPECT_THROW(transposed_segment_products(V, Eigen::VectorXd::Ones(30), TallMatrix<float>(30, 5)),
+               UsageError);
 }
 
 }  // namespace

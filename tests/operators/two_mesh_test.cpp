@@ -73,6 +73,21 @@ TEST(TwoMesh, IsFOnPatchMeans) {
   }
 }
 
+TEST(TwoMesh, OnePassOverUIsKProducts) {
+  const FormFactors F = factors_of("clutter", 300);
+  for (const std::string keys : {"k=60", "k=60,storage=f64", "k=60,mesh=uniform"}) {
+    const auto transport = cpu_operators().make("sparse-v:" + keys, F);
+    const auto& factors = dynamic_cast<const LowRankFactors&>(*transport);
+    const auto between = factors.multiply_between(factors.albedo());
+    const auto by_products = factors.LowRankFactors::multiply_between(factors.albedo());
+    ASSERT_EQ(between.size(), static_cast<std::size_t>(factors.albedo().cols()));
+    for (std::size_t c = 0; c < between.size(); ++c) {
+      EXPECT_GT(between[c].norm(), 0);
+      EXPECT_LE((between[c] - by_products[c]).norm(), 1e-6 * by_products[c].norm()) << keys;
+    }
+  }
+}
+
 TEST(TwoMesh, WithAsManyPatchesAsElementsIsDense) {
   const FormFactors F = factors_of("cube", 216);
   const Field dense = materialized(*cpu_operators().make("dense", F));
