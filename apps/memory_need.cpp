@@ -5,9 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace radiosity {
 namespace {
@@ -18,6 +22,22 @@ bool reaches_front(const PatchMesh& mesh, Index i, Index j, double slack) {
   for (int k = 0; k < other.corner_count; ++k)
     if (mesh.normal.col(i).dot(mesh.corner(j, k) - mesh.centroid.col(i)) > slack) return true;
   return false;
+}
+
+/// The patches of each coarse face that has any.
+std::vector<std::vector<Index>> patches_by_face(const PatchMesh& mesh) {
+  std::map<int, std::vector<Index>> faces;
+  for (Index i = 0; i < mesh.patch_count(); ++i)
+    faces[mesh.patches[static_cast<std::size_t>(i)].face].push_back(i);
+  std::vector<std::vector<Index>> lists;
+  for (auto& [face, patches] : faces) lists.push_back(std::move(patches));
+  return lists;
+}
+
+/// How many of `others` reach the front of the plane of patch i.
+std::uint64_t count_in_front(const PatchMesh& mesh, Index i, const std::vector<Index>& others, double slack) {
+  return static_cast<std::uint64_t>(
+      std::count_if(others.begin(), others.end(), [&](Index j) { return reaches_front(mesh, i, j, slack); }));
 }
 
 double tiled_entries(Index n) {
@@ -38,18 +58,16 @@ double form_factor_bytes(Index patch_count, FormFactorMethod method) {
 }
 
 std::uint64_t facing_pairs(const PatchMesh& mesh) {
-  const Index n = mesh.patch_count();
   const double slack =
       1e-9 * (mesh.centroid.rowwise().maxCoeff() - mesh.centroid.rowwise().minCoeff()).norm();
-  std::vector<std::uint64_t> counts(static_cast<std::size_t>(n), 0);
-  parallel_for(
-      static_cast<std::size_t>(n),
-      [&](std::size_t row) {
-        const auto i = static_cast<Index>(row);
-        for (Index j = i + 1; j < n; ++j)
-          if (reaches_front(mesh, i, j, slack) && reaches_front(mesh, j, i, slack)) ++counts[row];
-      },
-      16);
+  const std::vector<std::vector<Index>> faces = patches_by_face(mesh);
+  std::vector<std::uint64_t> counts(faces.size(), 0);
+  parallel_for(faces.size(), [&](std::size_t a) {
+    // Faces are planar: which patches of one are in front of another does not depend on the other's patch.
+    for (std::size_t b = a + 1; b < faces.size(); ++b)
+      if (const std::uint64_t seen = count_in_front(mesh, faces[a].front(), faces[b], slack); seen > 0)
+        counts[a] += seen * count_in_front(mesh, faces[b].front(), faces[a], slack);
+  });
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 

@@ -17,7 +17,7 @@ double machine_memory();
 double form_factor_bytes(Index patch_count, FormFactorMethod method);
 
 /// How many unordered pairs of patches can see each other as far as their planes go: each has a part of the
-/// other in front. Takes n^2 / 2 steps.
+/// other in front. Takes a step for each patch and face.
 std::uint64_t facing_pairs(const PatchMesh& mesh);
 
 /// At most how many bytes an operator takes to be applied: what blocks light only makes it less.

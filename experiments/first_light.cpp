@@ -4,7 +4,6 @@
 #include "foundation/output_file.hpp"
 #include "render/write_solution.hpp"
 
-
 namespace radiosity {
 
 ReportSection first_light(const std::filesystem::path& folder, const std::string& command,

@@ -11,16 +11,16 @@ namespace {
 template <typename Scalar>
 void add_weighted_rows(const Segments& V, const Eigen::VectorXd& diagonal, const TallMatrix<Scalar>& U,
                        Index segment, Eigen::Ref<Eigen::VectorXd> sums) {
-  constexpr Index panel_rows = TallMatrix<Scalar>::panel_rows;
+  constexpr Index height = TallMatrix<Scalar>::panel_rows;
   const Index end = V.offsets()[static_cast<std::size_t>(segment) + 1];
   for (Index first = V.offsets()[static_cast<std::size_t>(segment)]; first < end;) {
-    const Index panel = first / panel_rows;
-    const Index last = std::min(end, (panel + 1) * panel_rows);
-    double factors[panel_rows];
+    const Index panel = first / height;
+    const Index last = std::min(end, (panel + 1) * height);
+    double factors[height];
     for (Index e = first; e < last; ++e)
       factors[e - first] = (V.weights().empty() ? 1 : V.weights()[static_cast<std::size_t>(e)]) * diagonal[e];
     for (Index q = 0; q < U.columns(); ++q) {
-      const Scalar* column = U.panel(panel) + q * panel_rows + first % panel_rows;
+      const Scalar* column = U.panel(panel) + q * height + first % height;
       double sum = 0;
       for (Index e = 0; e < last - first; ++e) sum += factors[e] * static_cast<double>(column[e]);
       sums[q] += U.scale() * sum;

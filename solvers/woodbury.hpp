@@ -14,10 +14,10 @@ namespace radiosity {
 ///
 /// two products of n x k and one of k x k a column. The capacitance matrix I - V' R U of each channel is made
 /// and factored in double at the first start() (LowRankFactors::multiply_between), and again when the
-/// reflectance has changed. One step answers and computes the residual with the operator's own product; where that misses the
-/// tolerance, further steps are iterative refinements with the same factors. products() counts the
-/// refinements. Refuses as singular where a capacitance matrix is not to be told from a singular one
-/// (CapacitanceMatrices::singular).
+/// reflectance has changed. One step answers and computes the residual with the operator's own product; where
+/// that misses the tolerance, further steps are iterative refinements with the same factors. products()
+/// counts the refinements. Refuses as singular where a capacitance matrix is not to be told from a singular
+/// one (CapacitanceMatrices::singular).
 class Woodbury final : public SteppedSolver {
  public:
   /// Throws UsageError if the operator is not of low rank.
