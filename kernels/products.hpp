@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/colour_texture.hpp"
 #include "kernels/csr_matrix.hpp"
 #include "kernels/instruction_set.hpp"
 #include "kernels/quantized_tiles.hpp"
@@ -36,6 +37,14 @@ constexpr double tiled_product_error(Index n) {
 /// serves all columns.
 void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
+
+/// Column j of Y = M_c X and Y = M_c' X for the matrices of a texture, c = j modulo their number; X has a
+/// multiple of so many columns. Same promises, with u of float, relative to the numbers that texel() gives
+/// (X is scaled per column, so that only what is 2^-100 of the largest of them can underflow).
+void multiply(const ColourTexture& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const ColourTexture& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
 
 /// Y = M X and Y = M' X for a full matrix stored by rows, m x n. Same promises.
 void multiply(const RowMajorMatrix<double>& M, const ConstFieldRef& X, FieldRef Y,
