@@ -36,8 +36,8 @@ constexpr int bc1_channel(std::uint16_t colour, int channel) {
 /// Sixteen numbers, 4 x 4 texels, in eight bytes: BC4. Two numbers of 8 bits and three bits a texel, from the
 /// lowest bit of the first byte on, which choose one of
 ///
-///   first > second:  first, second, (6 first + second) / 7, (5 first + 2 second) / 7, ... (first + 6 second)
-///   / 7 else:            first, second, (4 first + second) / 5, ... (first + 4 second) / 5, 0, 255.
+///   first > second:  first, second, (6 first + second) / 7, (5 first + 2 second) / 7 ... (first + 6
+///   second)/7 else:            first, second, (4 first + second) / 5 ... (first + 4 second) / 5, 0, 255.
 struct Bc4Block {
   std::uint8_t first = 0;
   std::uint8_t second = 0;
@@ -45,6 +45,19 @@ struct Bc4Block {
 
   bool operator==(const Bc4Block&) const = default;
 };
+
+/// What the two numbers are multiplied with for each index, and what is added: [0] for first > second, [1]
+/// else.
+struct Bc4Weights {
+  float first[8];
+  float second[8];
+  float added[8];
+};
+constexpr Bc4Weights bc4_weights[2] = {
+    {{1, 0, 6 / 7.F, 5 / 7.F, 4 / 7.F, 3 / 7.F, 2 / 7.F, 1 / 7.F},
+     {0, 1, 1 / 7.F, 2 / 7.F, 3 / 7.F, 4 / 7.F, 5 / 7.F, 6 / 7.F},
+     {}},
+    {{1, 0, 0.8F, 0.6F, 0.4F, 0.2F, 0, 0}, {0, 1, 0.2F, 0.4F, 0.6F, 0.8F, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 255}}};
 
 static_assert(sizeof(Bc1Block) == 8 && sizeof(Bc4Block) == 8);
 

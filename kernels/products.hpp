@@ -34,9 +34,11 @@ constexpr double tiled_product_error(Index n) {
 }
 
 /// The same for a quantized matrix, with u of float: each tile is decoded into the first cache, where it
-/// serves all columns.
+/// serves all columns. A symmetric one is its own transpose.
 void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const QuantizedTiles& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
 
 /// Column j of Y = M_c X and Y = M_c' X for the matrices of a texture, c = j modulo their number; X has a
 /// multiple of so many columns. Same promises, with u of float, relative to the numbers that texel() gives

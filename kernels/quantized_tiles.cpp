@@ -1,43 +1,68 @@
 #include "kernels/quantized_tiles.hpp"
 
-#include "foundation/error.hpp"
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <utility>
 
 namespace radiosity {
 
-QuantizedTiles::QuantizedTiles(TileDirectory directory, int bits, int block)
+QuantizedTiles::QuantizedTiles(TileDirectory directory, const TileFormat& format)
     : directory_(std::move(directory)),
-      bits_(bits),
-      block_(block),
+      format_(format),
+      record_bytes_(static_cast<std::ptrdiff_t>(format.record_bytes())),
       exact_begin_(static_cast<std::size_t>(directory_.tile_count()) + 1) {
-  if (bits != 0 && bits != 2 && bits != 4 && bits != 8)
-    fail<UsageError>("codes of {} bits: there are 2, 4 and 8", bits);
-  if (block != 16 && block != 32 && block != 64)
-    fail<UsageError>("blocks of {} entries: there are 16, 32 and 64", block);
-  record_bytes_ = steps_in_tile() * static_cast<Index>(sizeof(Half)) + tile_entries * bits / 8;
   records_.reset(static_cast<std::byte*>(
       allocate_zeroed(static_cast<std::size_t>(directory_.tile_count() * record_bytes_))));
 }
 
+Index QuantizedTiles::steps_in_tile() const {
+  return format_.code != EntryCode::steps || format_.bits == 0 ? 0 : tile_entries / format_.block;
+}
+
 void QuantizedTiles::set_code(Index tile, Index r, Index c, unsigned code) {
-  const Index rows = 32 / bits_;
+  if (format_.code == EntryCode::curve) {
+    const bool pair = format_.bits == 4;
+    std::byte& byte =
+        writable_record(tile)[pair ? r * tile_size / 2 + c % (tile_size / 2) : r * tile_size + c];
+    const unsigned shift = pair && c >= tile_size / 2 ? 4 : 0;
+    const auto mask = static_cast<std::byte>(static_cast<unsigned>(largest_code()) << shift);
+    byte = (byte & ~mask) | static_cast<std::byte>(code << shift);
+    return;
+  }
+  const Index rows = 32 / format_.bits;
   std::byte* at = writable_record(tile) + steps_in_tile() * static_cast<Index>(sizeof(Half)) +
                   ((r / rows) * tile_size + c) * static_cast<Index>(sizeof(std::uint32_t));
   std::uint32_t word;
   std::memcpy(&word, at, sizeof word);
-  const auto shift = static_cast<unsigned>(r % rows * bits_);
+  const auto shift = static_cast<unsigned>(r % rows * format_.bits);
   word &= ~(static_cast<std::uint32_t>(largest_code()) << shift);
   word |= code << shift;
   std::memcpy(at, &word, sizeof word);
 }
 
 void QuantizedTiles::set_step(Index tile, Index r, Index block, Half step) {
-  std::memcpy(writable_record(tile) + (r * (tile_size / block_) + block) * static_cast<Index>(sizeof(Half)),
-              &step, sizeof step);
+  std::memcpy(
+      writable_record(tile) + (r * (tile_size / format_.block) + block) * static_cast<Index>(sizeof(Half)),
+      &step, sizeof step);
+}
+
+void QuantizedTiles::set_block(Index tile, Index row, Index column, const Bc4Block& block) {
+  std::memcpy(writable_record(tile) + (row * (tile_size / 4) + column) * static_cast<Index>(sizeof block),
+              &block, sizeof block);
+}
+
+void QuantizedTiles::set_number(Index tile, Index r, Index c, float number) {
+  std::uint16_t bits;
+  if (format_.code == EntryCode::half) {
+    bits = to_half(number).bits;
+  } else {
+    const auto word = std::bit_cast<std::uint32_t>(number);
+    bits = static_cast<std::uint16_t>((word + 0x7fff + (word >> 16 & 1)) >> 16);  // to nearest, ties to even
+  }
+  std::memcpy(writable_record(tile) + (r * tile_size + c) * static_cast<Index>(sizeof bits), &bits,
+              sizeof bits);
 }
 
 void QuantizedTiles::set_exact(const std::vector<ExactEntries>& tiles) {
@@ -52,23 +77,49 @@ void QuantizedTiles::set_exact(const std::vector<ExactEntries>& tiles) {
   exact_value_.shrink_to_fit();
 }
 
+float QuantizedTiles::stored_number(Index tile, Index r, Index c) const {
+  const std::byte* at = record(tile);
+  const auto read = [&](auto type, Index offset) {
+    std::memcpy(&type, at + offset, sizeof type);
+    return type;
+  };
+  switch (format_.code) {
+    case EntryCode::steps: {
+      const Index rows = 32 / format_.bits;
+      const auto step = read(Half{}, (r * tile_size + c) / format_.block * 2);
+      const auto word = read(std::uint32_t{}, 2 * steps_in_tile() + (r / rows * tile_size + c) * 4);
+      const auto code = static_cast<int>(word >> (r % rows * format_.bits)) & largest_code();
+      return static_cast<float>(code) * to_float(step);
+    }
+    case EntryCode::curve: {
+      const bool pair = format_.bits == 4;
+      const int byte =
+          read(std::uint8_t{}, pair ? r * tile_size / 2 + c % (tile_size / 2) : r * tile_size + c);
+      const int code = !pair ? byte : 17 * (c < tile_size / 2 ? byte & 15 : byte >> 4);
+      return format_.curve.number(static_cast<float>(code));
+    }
+    case EntryCode::bc4: {
+      const auto block = read(Bc4Block{}, (r / 4 * (tile_size / 4) + c / 4) * 8);
+      const auto index = static_cast<std::size_t>(bc4_index(block, static_cast<int>(r % 4 * 4 + c % 4)));
+      const Bc4Weights& weights = bc4_weights[block.first > block.second ? 0 : 1];
+      return format_.curve.number((static_cast<float>(block.first) * weights.first[index] +
+                                   static_cast<float>(block.second) * weights.second[index]) +
+                                  weights.added[index]);
+    }
+    case EntryCode::half:
+      return to_float(read(Half{}, (r * tile_size + c) * 2));
+    case EntryCode::brain:
+      break;
+  }
+  return std::bit_cast<float>(static_cast<std::uint32_t>(read(std::uint16_t{}, (r * tile_size + c) * 2))
+                              << 16);
+}
+
 void QuantizedTiles::decode(Index tile, float* entries) const {
   std::fill(entries, entries + tile_entries, 0.0F);
-  if (bits_ > 0) {
-    const std::byte* steps = record(tile);
-    const std::byte* codes = steps + steps_in_tile() * static_cast<Index>(sizeof(Half));
-    const Index rows = 32 / bits_;
+  if (record_bytes_ > 0)
     for (Index r = 0; r < tile_size; ++r)
-      for (Index c = 0; c < tile_size; ++c) {
-        Half step;
-        std::memcpy(&step, steps + (r * tile_size + c) / block_ * static_cast<Index>(sizeof step),
-                    sizeof step);
-        std::uint32_t word;
-        std::memcpy(&word, codes + (r / rows * tile_size + c) * static_cast<Index>(sizeof word), sizeof word);
-        const auto code = static_cast<int>(word >> (r % rows * bits_)) & largest_code();
-        entries[r * tile_size + c] = static_cast<float>(code) * to_float(step);
-      }
-  }
+      for (Index c = 0; c < tile_size; ++c) entries[r * tile_size + c] = stored_number(tile, r, c);
   for (std::size_t k = exact_begin(tile); k < exact_begin(tile + 1); ++k)
     entries[exact_position_[k]] = exact_value_[k];
 }
@@ -103,7 +154,7 @@ Eigen::MatrixXd materialize(const QuantizedTiles& tiles) {
           const double entry =
               tiles.scale() * static_cast<double>(entries[static_cast<std::size_t>(r * size + c)]);
           matrix(I * size + r, J * size + c) += entry;
-          matrix(J * size + c, I * size + r) += entry;
+          if (directory.symmetric()) matrix(J * size + c, I * size + r) += entry;
         }
     }
   return matrix;

@@ -1,24 +1,27 @@
 #pragma once
 
 #include "kernels/aligned_memory.hpp"
+#include "kernels/block_formats.hpp"
 #include "kernels/half.hpp"
 #include "kernels/tile_directory.hpp"
+#include "kernels/tile_format.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace radiosity {
 
-/// A non-negative symmetric n x n matrix whose upper triangle is kept in tiles of 64 x 64 whole numbers of a
-/// few bits: `block` consecutive entries of a row share a step in binary16, and entry = code step, which
-/// float32 holds exactly. Any entry may be kept apart in float32 instead. The matrix is scale() times what
-/// the tiles hold.
+/// A non-negative n x n matrix in tiles of 64 x 64 entries, each a record that a decoder turns into float32
+/// numbers (kernels/tile_format.hpp): whole numbers of a few bits with a step that `block` consecutive
+/// entries of a row share, codes on a curve, BC4 blocks, or floats of 16 bits. Any entry may be kept apart in
+/// float32 instead. The matrix is scale() times what the tiles hold.
 ///
-/// A tile on the diagonal keeps its upper half only, with half of the diagonal's entries: tile + tile' is the
-/// block of the matrix, and a code's error counts twice on the diagonal (which is 0 for planar patches). Rows
-/// and columns beyond n are zero.
+/// Of a symmetric matrix only the upper triangle is kept. A tile on its diagonal keeps its upper half only,
+/// with half of the diagonal's entries: tile + tile' is the block of the matrix, and a code's error counts
+/// twice on the diagonal (which is 0 for planar patches). Rows and columns beyond n are zero.
 class QuantizedTiles {
  public:
   static constexpr Index tile_size = TileDirectory::tile_size;
@@ -30,29 +33,40 @@ class QuantizedTiles {
     std::vector<float> value;
   };
 
-  /// Zeros. `bits` a code: 0 (all entries are kept apart), 2, 4 or 8; `block`: 16, 32 or 64. Throws
-  /// UsageError for others.
-  QuantizedTiles(TileDirectory directory, int bits, int block);
+  /// Zeros. Throws UsageError for formats that do not exist.
+  QuantizedTiles(TileDirectory directory, const TileFormat& format);
+  /// With steps. `bits` a code: 0 (all entries are kept apart), 2, 4 or 8; `block`: 16, 32 or 64.
+  QuantizedTiles(TileDirectory directory, int bits, int block)
+      : QuantizedTiles(std::move(directory), TileFormat{EntryCode::steps, bits, block, {}}) {}
 
   const TileDirectory& directory() const { return directory_; }
   Index size() const { return directory_.size(); }
-  int bits() const { return bits_; }
-  int block() const { return block_; }
-  int largest_code() const { return (1 << bits_) - 1; }
+  const TileFormat& format() const { return format_; }
+  int largest_code() const { return (1 << format_.bits) - 1; }
 
   double scale() const { return scale_; }
   void set_scale(double scale) { scale_ = scale; }
 
-  /// The code of entry (r, c) of a tile; safe from several threads for different tiles.
+  /// The code of entry (r, c) of a tile, where the format has steps or a curve. This and the next three are
+  /// safe from several threads for different tiles.
   void set_code(Index tile, Index r, Index c, unsigned code);
+  /// Where the format has steps.
   void set_step(Index tile, Index r, Index block, Half step);
+  /// The block of the entries (4 row + 0 ... 3, 4 column + 0 ... 3), where the format is BC4.
+  void set_block(Index tile, Index row, Index column, const Bc4Block& block);
+  /// >= 0, where the format is half or brain; rounded to nearest.
+  void set_number(Index tile, Index r, Index c, float number);
   /// One element a tile.
   void set_exact(const std::vector<ExactEntries>& tiles);
 
-  /// The record of a tile: its steps by rows, 64 x (64 / block), then its codes. Word c of group g of 64
-  /// words holds the codes of the entries (g R + k, c), k = 0 ... R - 1, R = 32 / bits, the first in the
-  /// lowest bits: a vector of words yields one row after the other by shifts. 64-byte aligned; null for bits
-  /// = 0.
+  /// The record of a tile, 64-byte aligned, null if there is none:
+  ///   steps   the steps by rows, 64 x (64 / block), then the codes. Word c of group g of 64 words holds
+  ///   those
+  ///           of the entries (g R + k, c), k = 0 ... R - 1, R = 32 / bits, the first in the lowest bits: a
+  ///           vector of words yields one row after the other by shifts;
+  ///   curve   bytes by rows; with 4 bits byte c of a row holds the entries c and, in its upper bits, c + 32;
+  ///   bc4     blocks by rows, 16 x 16;
+  ///   half, brain   numbers by rows.
   const std::byte* record(Index tile) const { return records_.get() + tile * record_bytes_; }
   std::ptrdiff_t record_bytes() const { return record_bytes_; }
   /// The entries kept apart of a tile are those numbered exact_begin(tile) ... exact_begin(tile + 1) - 1.
@@ -69,12 +83,12 @@ class QuantizedTiles {
   std::size_t directory_bytes() const;
 
  private:
-  Index steps_in_tile() const { return bits_ == 0 ? 0 : tile_entries / block_; }
+  Index steps_in_tile() const;
+  float stored_number(Index tile, Index r, Index c) const;
   std::byte* writable_record(Index tile) { return records_.get() + tile * record_bytes_; }
 
   TileDirectory directory_;
-  int bits_;
-  int block_;
+  TileFormat format_;
   double scale_ = 1;
   std::ptrdiff_t record_bytes_ = 0;
   std::unique_ptr<std::byte, AlignedRelease> records_;

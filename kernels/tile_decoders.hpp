@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/instruction_set.hpp"
+#include "kernels/tile_format.hpp"
 
 #include <cstddef>
 
@@ -12,13 +13,14 @@ namespace radiosity {
 
 /// Turns the record of a tile (kernels/quantized_tiles.hpp) into its 64 x 64 numbers, row-major and 64-byte
 /// aligned, and fetches as many bytes at `prefetch` ahead. All instruction sets give the same bits.
-using TileDecoder = void (*)(const std::byte* record, const std::byte* prefetch, float* entries);
+using TileDecoder = void (*)(const std::byte* record, const std::byte* prefetch, const TileCurve& curve,
+                             float* entries);
 
-/// For codes of 2, 4 or 8 bits and blocks of 16, 32 or 64 entries.
-TileDecoder tile_decoder(InstructionSet instructions, int bits, int block);
+/// Null where there is nothing to decode (steps of 0 bits).
+TileDecoder tile_decoder(InstructionSet instructions, const TileFormat& format);
 
-TileDecoder baseline_tile_decoder(int bits, int block);
-TileDecoder avx2_tile_decoder(int bits, int block);
-TileDecoder avx512_tile_decoder(int bits, int block);
+TileDecoder baseline_tile_decoder(const TileFormat& format);
+TileDecoder avx2_tile_decoder(const TileFormat& format);
+TileDecoder avx512_tile_decoder(const TileFormat& format);
 
 }  // namespace radiosity

@@ -5,7 +5,8 @@
 //   load_words(), store(),
 //   widen(halves, steps, count): binary16 to float, count a multiple of 64,
 //   Steps<bits>: what a block's codes multiply with, made from its step by Codes::steps<bits>(step), and
-//   decode<bits, shift>(words, steps): code times step of the codes `shift` bits up.
+//   decode<bits, shift>(words, steps): code times step of the codes `shift` bits up, and
+//   decode_bc4<logarithmic>(blocks, curve, entries): four BC4 blocks side by side.
 
 namespace radiosity {
 namespace {
@@ -67,7 +68,7 @@ class RecordDecoder {
 };
 
 template <int bits, int block>
-void decode_record(const std::byte* record, const std::byte* prefetch, float* entries) {
+void decode_record(const std::byte* record, const std::byte* prefetch, const TileCurve&, float* entries) {
   RecordDecoder<bits, block>(record, prefetch, entries).run();
 }
 
@@ -78,10 +79,108 @@ TileDecoder decoder_for_block(int block) {
   return decode_record<bits, 64>;
 }
 
-TileDecoder decoder(int bits, int block) {
-  if (bits == 2) return decoder_for_block<2>(block);
-  if (bits == 4) return decoder_for_block<4>(block);
-  return decoder_for_block<8>(block);
+/// As TileCurve::number has it.
+template <bool logarithmic>
+[[gnu::always_inline]] inline float on_tile_curve(float code, const TileCurve& curve) {
+  const float scaled = code * curve.slope;
+  if constexpr (!logarithmic) return scaled;
+  const auto word = static_cast<std::int32_t>(scaled + curve.base) & (code > 0 ? -1 : 0);
+  float number;
+  std::memcpy(&number, &word, sizeof number);
+  return number;
+}
+
+constexpr int tile_width = 64;
+
+[[gnu::always_inline]] inline void fetch_line(const std::byte* prefetch, int byte) {
+  __builtin_prefetch(prefetch + byte);
+}
+
+template <bool logarithmic>
+void decode_bytes(const std::byte* record, const std::byte* prefetch, const TileCurve& curve,
+                  float* entries) {
+  const auto* codes = reinterpret_cast<const std::uint8_t*>(record);
+  const TileCurve own = curve;
+  for (int r = 0; r < tile_width; ++r) {
+    fetch_line(prefetch, r * tile_width);
+    for (int c = 0; c < tile_width; ++c)
+      entries[r * tile_width + c] =
+          on_tile_curve<logarithmic>(static_cast<float>(codes[r * tile_width + c]), own);
+  }
+}
+
+/// The low four bits of byte c of a row are column c, the high four column c + 32.
+template <bool logarithmic>
+void decode_nibbles(const std::byte* record, const std::byte* prefetch, const TileCurve& curve,
+                    float* entries) {
+  const auto* codes = reinterpret_cast<const std::uint8_t*>(record);
+  constexpr int half = tile_width / 2;
+  const TileCurve own = curve;
+  for (int r = 0; r < tile_width; ++r) {
+    fetch_line(prefetch, r * half);
+    for (int c = 0; c < half; ++c) {
+      const int byte = codes[r * half + c];
+      entries[r * tile_width + c] = on_tile_curve<logarithmic>(static_cast<float>(17 * (byte & 15)), own);
+      entries[r * tile_width + half + c] =
+          on_tile_curve<logarithmic>(static_cast<float>(17 * (byte >> 4)), own);
+    }
+  }
+}
+
+template <bool logarithmic>
+void decode_blocks(const std::byte* record, const std::byte* prefetch, const TileCurve& curve,
+                   float* entries) {
+  const auto* blocks = reinterpret_cast<const std::uint64_t*>(record);
+  const TileCurve own = curve;
+  for (int row = 0; row < tile_width / 4; ++row) {
+    fetch_line(prefetch, row * 128);
+    fetch_line(prefetch, row * 128 + 64);
+    for (int b = 0; b < tile_width / 4; b += 4)
+      Codes::template decode_bc4<logarithmic>(blocks + row * 16 + b, own,
+                                              entries + row * 4 * tile_width + 4 * b);
+  }
+}
+
+inline void decode_halves(const std::byte* record, const std::byte* prefetch, const TileCurve&,
+                          float* entries) {
+  const auto* halves = reinterpret_cast<const std::uint16_t*>(record);
+  for (int r = 0; r < tile_width; ++r) {
+    fetch_line(prefetch, r * 128);
+    fetch_line(prefetch, r * 128 + 64);
+    Codes::widen(halves + r * tile_width, entries + r * tile_width, tile_width);
+  }
+}
+
+inline void decode_brain_floats(const std::byte* record, const std::byte* prefetch, const TileCurve&,
+                                float* entries) {
+  const auto* upper = reinterpret_cast<const std::uint16_t*>(record);
+  for (int r = 0; r < tile_width; ++r) {
+    fetch_line(prefetch, r * 128);
+    fetch_line(prefetch, r * 128 + 64);
+    for (int c = 0; c < tile_width; ++c) {
+      const auto word = static_cast<std::uint32_t>(upper[r * tile_width + c]) << 16;
+      std::memcpy(entries + r * tile_width + c, &word, sizeof word);
+    }
+  }
+}
+
+TileDecoder decoder_of_steps(const TileFormat& format) {
+  if (format.bits == 2) return decoder_for_block<2>(format.block);
+  if (format.bits == 4) return decoder_for_block<4>(format.block);
+  return decoder_for_block<8>(format.block);
+}
+
+template <bool logarithmic>
+TileDecoder decoder_on_curve(const TileFormat& format) {
+  if (format.code == EntryCode::bc4) return decode_blocks<logarithmic>;
+  return format.bits == 4 ? decode_nibbles<logarithmic> : decode_bytes<logarithmic>;
+}
+
+TileDecoder decoder(const TileFormat& format) {
+  if (format.code == EntryCode::steps) return decoder_of_steps(format);
+  if (format.code == EntryCode::half) return decode_halves;
+  if (format.code == EntryCode::brain) return decode_brain_floats;
+  return format.curve.logarithmic ? decoder_on_curve<true>(format) : decoder_on_curve<false>(format);
 }
 
 }  // namespace

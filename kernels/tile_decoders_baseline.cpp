@@ -1,3 +1,4 @@
+#include "kernels/block_formats.hpp"
 #include "kernels/tile_decoders.hpp"
 
 #include <cstdint>
@@ -6,6 +7,9 @@
 
 namespace radiosity {
 namespace {
+
+template <bool logarithmic>
+float on_tile_curve(float code, const TileCurve& curve);
 
 // Vectors of 16 bytes in the language extension that GCC and Clang share: whatever every processor of the
 // target has.
@@ -41,6 +45,22 @@ struct Codes {
     const auto shifted = reinterpret_cast<Words>(reinterpret_cast<Unsigned>(words) >> shift);
     return __builtin_convertvector(shifted & ((1 << bits) - 1), Vector) * steps;
   }
+
+  /// Four blocks of a row.
+  template <bool logarithmic>
+  static void decode_bc4(const std::uint64_t* blocks, const TileCurve& curve, float* entries) {
+    for (int b = 0; b < 4; ++b) {
+      const auto first = static_cast<float>(blocks[b] & 255);
+      const auto second = static_cast<float>(blocks[b] >> 8 & 255);
+      const Bc4Weights& weights = bc4_weights[first > second ? 0 : 1];
+      float palette[8];
+      for (int k = 0; k < 8; ++k)
+        palette[k] = on_tile_curve<logarithmic>(
+            (first * weights.first[k] + second * weights.second[k]) + weights.added[k], curve);
+      for (int texel = 0; texel < 16; ++texel)
+        entries[texel / 4 * 64 + 4 * b + texel % 4] = palette[blocks[b] >> (16 + 3 * texel) & 7];
+    }
+  }
 };
 
 }  // namespace
@@ -50,8 +70,8 @@ struct Codes {
 
 namespace radiosity {
 
-TileDecoder baseline_tile_decoder(int bits, int block) {
-  return decoder(bits, block);
+TileDecoder baseline_tile_decoder(const TileFormat& format) {
+  return decoder(format);
 }
 
 }  // namespace radiosity

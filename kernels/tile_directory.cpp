@@ -6,11 +6,19 @@
 
 namespace radiosity {
 
-TileDirectory::TileDirectory(Index size, const std::function<bool(Index, Index)>& present) : size_(size) {
+TileDirectory::TileDirectory(Index size, const std::function<bool(Index, Index)>& present)
+    : TileDirectory(size, true, present) {}
+
+TileDirectory TileDirectory::full(Index size) {
+  return {size, false, [](Index, Index) { return true; }};
+}
+
+TileDirectory::TileDirectory(Index size, bool symmetric, const std::function<bool(Index, Index)>& present)
+    : size_(size), symmetric_(symmetric) {
   if (size < 0) fail<UsageError>("a kernel of size {} does not exist", size);
   row_begin_.push_back(0);
   for (Index I = 0; I < tile_rows(); ++I) {
-    for (Index J = I; J < tile_rows(); ++J)
+    for (Index J = symmetric ? I : 0; J < tile_rows(); ++J)
       if (present(I, J)) columns_.push_back(static_cast<std::int32_t>(J));
     row_begin_.push_back(tile_count());
   }

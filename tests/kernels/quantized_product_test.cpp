@@ -52,7 +52,8 @@ TEST(TileDecoder, GivesTheBitsOfThePlainOneWithEveryInstructionSet) {
           std::vector<float> plain(QuantizedTiles::tile_entries);
           tiles.decode(tile, plain.data());
           const AlignedBuffer<float> fast(QuantizedTiles::tile_entries);
-          tile_decoder(set, bits, block)(tiles.record(tile), tiles.record(tile), fast.data());
+          tile_decoder(set, tiles.format())(tiles.record(tile), tiles.record(tile), tiles.format().curve,
+                                            fast.data());
           EXPECT_TRUE(std::equal(plain.begin(), plain.end(), fast.data()))
               << name(set) << ", " << bits << " bits, block " << block;
         }

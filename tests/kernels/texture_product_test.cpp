@@ -12,7 +12,7 @@ namespace radiosity {
 namespace {
 
 /// Any block of four colours; every third has a colour of code 0, some are constant.
-Bc1Block random_block(RandomStream& random) {
+Bc1Block random_bc1_block(RandomStream& random) {
   Bc1Block block;
   block.first = static_cast<std::uint16_t>(random.below(1U << 16));
   block.second = static_cast<std::uint16_t>(random.below(3) == 0 ? 0 : random.below(1U << 16));
@@ -28,7 +28,7 @@ ColourTexture random_texture(Index rows, Index columns, int channels, TextureCur
   ColourTexture texture(rows, columns, channels, curve);
   for (int channel = 0; channel < channels; ++channel) texture.set_scale(channel, 0.75 + channel);
   for (Index r = 0; r < texture.block_rows(); ++r)
-    for (Index c = 0; c < texture.block_columns(); ++c) texture.set_block(r, c, random_block(random));
+    for (Index c = 0; c < texture.block_columns(); ++c) texture.set_block(r, c, random_bc1_block(random));
   return texture;
 }
 

@@ -62,7 +62,7 @@ struct QuantizedSource {
     if (decoder == nullptr)
       std::fill(panel, panel + panel_entries, 0.0F);
     else
-      decoder(K.record(tile), K.record(tile) + bytes_ahead, panel);
+      decoder(K.record(tile), K.record(tile) + bytes_ahead, K.format().curve, panel);
     const std::uint16_t* position = K.exact_position().data();
     const float* value = K.exact_value().data();
     const std::size_t end = K.exact_begin(tile + 1);
@@ -72,15 +72,22 @@ struct QuantizedSource {
   static const char* prefetch(const Entry*) { return nullptr; }
 };
 
+enum class Direction { forward, transposed };  ///< K X or K' X: the same for a symmetric K
+
 template <typename Source>
-class SymmetricProduct {
+class TileSweep {
  public:
   using Entry = typename Source::Entry;
   using Number = typename Multiplier<Entry>::Type;
 
-  SymmetricProduct(const TileDirectory& directory, const Source& source, const BlockedField<Number>& X,
-                   PartialSums& sums, const TileProducts<Entry>& products)
-      : directory_(directory), source_(source), X_(X), sums_(sums), products_(products) {}
+  TileSweep(const TileDirectory& directory, const Source& source, Direction direction,
+            const BlockedField<Number>& X, PartialSums& sums, const TileProducts<Entry>& products)
+      : directory_(directory),
+        source_(source),
+        direction_(direction),
+        X_(X),
+        sums_(sums),
+        products_(products) {}
 
   void multiply_rows(Index chunk, Index first_row, Index last_row) {
     sums_.start(chunk);
@@ -120,31 +127,44 @@ class SymmetricProduct {
       task.x_rows = X_.block(I) + 64 * c;
       task.x_rows_scale = X_.scale(I) + c;
       task.y_columns = sums_.block(chunk, J) + 64 * c;
-      const auto& products = I == J && Source::whole_diagonal ? products_.to_rows : products_.both;
-      products[static_cast<std::size_t>(columns - 1)](task);
+      functions(I == J)[columns - 1](task);
     }
+  }
+
+  const typename TileProducts<Entry>::Function* functions(bool on_diagonal) const {
+    if (!directory_.symmetric())
+      return direction_ == Direction::forward ? products_.to_rows : products_.to_columns;
+    return on_diagonal && Source::whole_diagonal ? products_.to_rows : products_.both;
   }
 
   const TileDirectory& directory_;
   const Source& source_;
+  Direction direction_;
   const BlockedField<Number>& X_;
   PartialSums& sums_;
   const TileProducts<Entry>& products_;
 };
 
+/// The first block of Y that a chunk adds to: its own first one, or any where tiles lie below the diagonal.
+std::vector<Index> first_blocks(const TileDirectory& directory, const std::vector<Index>& rows) {
+  std::vector<Index> first(rows.begin(), rows.end() - 1);
+  if (!directory.symmetric()) std::fill(first.begin(), first.end(), 0);
+  return first;
+}
+
 template <typename Source>
-void multiply_symmetric(const TileDirectory& directory, const Source& source, double scale,
-                        const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
+void multiply_tiles(const TileDirectory& directory, const Source& source, Direction direction, double scale,
+                    const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
   using Entry = typename Source::Entry;
   check_product_shapes(directory.size(), directory.size(), X, Y);
   const TileProducts<Entry> products = tile_products<Entry>(instructions);
   const std::vector<Index> rows = split_tile_rows(directory);
-  const std::vector<Index> first_block(rows.begin(), rows.end() - 1);
+  const std::vector<Index> first_block = first_blocks(directory, rows);
   for (Index first = 0; first < X.cols(); first += columns_at_once) {
     const Index columns = std::min(columns_at_once, X.cols() - first);
     const BlockedField<typename Multiplier<Entry>::Type> blocked(X, first, columns);
     PartialSums sums(blocked.blocks(), columns, first_block);
-    SymmetricProduct<Source> product(directory, source, blocked, sums, products);
+    TileSweep<Source> product(directory, source, direction, blocked, sums, products);
     parallel_for(first_block.size(), [&](std::size_t chunk) {
       product.multiply_rows(static_cast<Index>(chunk), rows[chunk], rows[chunk + 1]);
     });
@@ -155,7 +175,7 @@ void multiply_symmetric(const TileDirectory& directory, const Source& source, do
 template <typename Scalar>
 void multiply_stored(const SymmetricTiles<Scalar>& K, const ConstFieldRef& X, FieldRef Y,
                      InstructionSet instructions) {
-  multiply_symmetric(K.directory(), StoredSource<Scalar>{K}, K.scale(), X, Y, instructions);
+  multiply_tiles(K.directory(), StoredSource<Scalar>{K}, Direction::forward, K.scale(), X, Y, instructions);
 }
 
 }  // namespace
@@ -174,8 +194,14 @@ void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
 }
 
 void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
-  const TileDecoder decoder = K.bits() == 0 ? nullptr : tile_decoder(instructions, K.bits(), K.block());
-  multiply_symmetric(K.directory(), QuantizedSource{K, decoder}, K.scale(), X, Y, instructions);
+  const QuantizedSource source{K, tile_decoder(instructions, K.format())};
+  multiply_tiles(K.directory(), source, Direction::forward, K.scale(), X, Y, instructions);
+}
+
+void multiply_transposed(const QuantizedTiles& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions) {
+  const QuantizedSource source{M, tile_decoder(instructions, M.format())};
+  multiply_tiles(M.directory(), source, Direction::transposed, M.scale(), X, Y, instructions);
 }
 
 }  // namespace radiosity
