@@ -154,7 +154,8 @@ Eigen::MatrixXd materialize(const QuantizedTiles& tiles) {
           const double entry =
               tiles.scale() * static_cast<double>(entries[static_cast<std::size_t>(r * size + c)]);
           matrix(I * size + r, J * size + c) += entry;
-          if (directory.symmetric()) matrix(J * size + c, I * size + r) += entry;
+          if (directory.symmetric() && (I != J || !tiles.whole_diagonal()))
+            matrix(J * size + c, I * size + r) += entry;
         }
     }
   return matrix;

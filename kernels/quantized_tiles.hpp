@@ -19,9 +19,10 @@ namespace radiosity {
 /// entries of a row share, codes on a curve, BC4 blocks, or floats of 16 bits. Any entry may be kept apart in
 /// float32 instead. The matrix is scale() times what the tiles hold.
 ///
-/// Of a symmetric matrix only the upper triangle is kept. A tile on its diagonal keeps its upper half only,
-/// with half of the diagonal's entries: tile + tile' is the block of the matrix, and a code's error counts
-/// twice on the diagonal (which is 0 for planar patches). Rows and columns beyond n are zero.
+/// Of a symmetric matrix only the upper triangle is kept. A tile on its diagonal with steps keeps its upper
+/// half only, with half of the diagonal's entries: tile + tile' is the block of the matrix, and a code's
+/// error counts twice on the diagonal (which is 0 for planar patches). In the other formats it is whole
+/// (whole_diagonal()). Rows and columns beyond n are zero.
 class QuantizedTiles {
  public:
   static constexpr Index tile_size = TileDirectory::tile_size;
@@ -42,6 +43,7 @@ class QuantizedTiles {
   const TileDirectory& directory() const { return directory_; }
   Index size() const { return directory_.size(); }
   const TileFormat& format() const { return format_; }
+  bool whole_diagonal() const { return format_.code != EntryCode::steps; }
   int largest_code() const { return (1 << format_.bits) - 1; }
 
   double scale() const { return scale_; }

@@ -39,10 +39,10 @@ template <typename Scalar>
 struct StoredSource {
   using Entry = Scalar;
   static constexpr Index panel_entries = 0;
-  static constexpr bool whole_diagonal = true;  ///< a tile on the diagonal keeps both halves
 
   const SymmetricTiles<Scalar>& K;
 
+  static bool whole_diagonal() { return true; }  ///< whether a tile on the diagonal keeps both halves
   const Entry* read(Index tile, Entry*) const { return K.tile_data(tile); }
   static const char* prefetch(const Entry* entries) {
     return reinterpret_cast<const char*>(entries) + bytes_ahead;
@@ -53,11 +53,11 @@ struct StoredSource {
 struct QuantizedSource {
   using Entry = float;
   static constexpr Index panel_entries = QuantizedTiles::tile_entries;
-  static constexpr bool whole_diagonal = false;
 
   const QuantizedTiles& K;
   TileDecoder decoder;
 
+  bool whole_diagonal() const { return K.whole_diagonal(); }
   const Entry* read(Index tile, Entry* panel) const {
     if (decoder == nullptr)
       std::fill(panel, panel + panel_entries, 0.0F);
@@ -134,7 +134,7 @@ class TileSweep {
   const typename TileProducts<Entry>::Function* functions(bool on_diagonal) const {
     if (!directory_.symmetric())
       return direction_ == Direction::forward ? products_.to_rows : products_.to_columns;
-    return on_diagonal && Source::whole_diagonal ? products_.to_rows : products_.both;
+    return on_diagonal && source_.whole_diagonal() ? products_.to_rows : products_.both;
   }
 
   const TileDirectory& directory_;

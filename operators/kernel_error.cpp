@@ -35,19 +35,20 @@ class TileComparison {
     for (Index r = 0; r < std::min(tile_size, K_.size() - I * tile_size); ++r)
       for (Index c = 0; c < std::min(tile_size, K_.size() - J * tile_size); ++c) {
         const double truth = K_.scale() * K_.tile_data(tile)[r * tile_size + c];
-        const double approximate = approximation_.scale() * entry(decoded, I == J, r, c);
+        const double approximate =
+            approximation_.scale() * entry(decoded, I == J && !approximation_.whole_diagonal(), r, c);
         add(sums, I, J, r, c, {std::fabs(approximate - truth), truth, approximate});
       }
     return sums;
   }
 
  private:
-  static double entry(const std::array<float, QuantizedTiles::tile_entries>& decoded, bool diagonal, Index r,
+  static double entry(const std::array<float, QuantizedTiles::tile_entries>& decoded, bool halves, Index r,
                       Index c) {
     const auto at = [&](Index i, Index j) {
       return static_cast<double>(decoded[static_cast<std::size_t>(i * tile_size + j)]);
     };
-    return diagonal ? at(r, c) + at(c, r) : at(r, c);
+    return halves ? at(r, c) + at(c, r) : at(r, c);
   }
 
   void add(TileSums& sums, Index I, Index J, Index r, Index c, const std::array<double, 3>& values) const {
