@@ -148,7 +148,7 @@ class TileRounding {
  private:
   double entry(Index r, Index c) const { return tile_[static_cast<std::size_t>(r * size + c)]; }
   double step_of(Index r, Index c) const {
-    return steps_[static_cast<std::size_t>((r * size + c) / result_.block())];
+    return steps_[static_cast<std::size_t>((r * size + c) / result_.format().block)];
   }
   /// Zeros stay zero, whatever error arrives at them.
   bool has_code(Index r, Index c) const {
@@ -156,7 +156,7 @@ class TileRounding {
   }
 
   void find_steps() {
-    const Index block = result_.block();
+    const Index block = result_.format().block;
     for (Index first = 0; first < entries_in_tile; first += block) {
       double largest = 0;
       for (Index k = first; k < first + block; ++k)

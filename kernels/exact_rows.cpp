@@ -77,15 +77,12 @@ void ExactRows::add_transposed_product(double scale, const Eigen::Ref<const Eige
   for (const Eigen::VectorXd& sum : sums) y += scale * sum;
 }
 
-Eigen::MatrixXd ExactRows::materialize() const {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows(), columns_);
+void ExactRows::add_row(Index row, double* numbers) const {
   visit_columns([&](const auto* columns) {
-    for (Index i = 0; i < rows(); ++i)
-      for (std::size_t k = begin_[static_cast<std::size_t>(i)]; k < begin_[static_cast<std::size_t>(i) + 1];
-           ++k)
-        matrix(i, columns[k]) += static_cast<double>(values_[k]);
+    for (std::size_t k = begin_[static_cast<std::size_t>(row)]; k < begin_[static_cast<std::size_t>(row) + 1];
+         ++k)
+      numbers[columns[k]] += static_cast<double>(values_[k]);
   });
-  return matrix;
 }
 
 }  // namespace radiosity

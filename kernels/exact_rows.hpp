@@ -31,8 +31,8 @@ class ExactRows {
   void add_transposed_product(double scale, const Eigen::Ref<const Eigen::VectorXd>& x,
                               Eigen::Ref<Eigen::VectorXd> y) const;
 
-  /// The same in full, m x n.
-  Eigen::MatrixXd materialize() const;
+  /// Adds the entries of a row to n numbers.
+  void add_row(Index row, double* numbers) const;
 
   std::size_t value_bytes() const { return values_.size() * sizeof(float); }
   std::size_t index_bytes() const {

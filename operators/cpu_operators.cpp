@@ -1,7 +1,9 @@
+#include "operators/bounces_operator.hpp"
 #include "operators/csr_operator.hpp"
 #include "operators/cur_operator.hpp"
 #include "operators/dct_operator.hpp"
 #include "operators/dense_operator.hpp"
+#include "operators/dxt_operator.hpp"
 #include "operators/neumann_sparse_operator.hpp"
 #include "operators/operator_registry.hpp"
 #include "operators/qr_operator.hpp"
@@ -94,6 +96,23 @@ OperatorRegistry cpu_operators() {
        .lossy = true,
        .cubic = true,
        .variants = {"neumann-sparse:threshold=1e-3"}},
+      {.name = "bounces",
+       .summary = "E -> B after k bounces by one product: the sum of all paths of up to k, in full",
+       .defaults = "bounces:k=3,storage=f32",
+       .make = make_bounces_operator,
+       .lossy = true,
+       .cubic = true,
+       .variants = {"bounces:k=inf,storage=f64", "bounces:k=10,storage=f16"}},
+      {.name = "dxt",
+       .summary = "document 000's compressed matrix: the largest of each row, BC1 blocks of logarithms",
+       .defaults = "dxt:bounces=1,exact=0.04,reorder=both,codec=bc1,range=25,fill=0",
+       .make = make_dxt_operator,
+       .lossy = true,
+       .cubic = true,
+       .variants = {"dxt:reorder=morton,range=auto,fill=1,fit=cluster", "dxt:bounces=3",
+                    "dxt:codec=bc4,reorder=2opt", "dxt:codec=f16,start=random,reorder=none",
+                    "dxt:codec=u4,map=linear", "dxt:matrix=kernel,reorder=morton,range=auto,fill=1",
+                    "dxt:matrix=kernel,codec=u8", "dxt:matrix=kernel,codec=bf16,reorder=none"}},
   });
 }
 

@@ -21,7 +21,9 @@ TEST(ExactRows, MultiplyAsTheirFullMatrix) {
   // 70000 columns need 32 bits each.
   for (const auto& [m, n] : {std::pair<Index, Index>{0, 0}, {1, 1}, {200, 300}, {3, 70000}}) {
     const ExactRows M(n, sparse_rows(m, n, 81));
-    const Eigen::MatrixXd full = M.materialize();
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> full(m, n);
+    full.setZero();
+    for (Index i = 0; i < m; ++i) M.add_row(i, full.row(i).data());
     const Eigen::VectorXd x = random_matrix(n, 1, 82), z = random_matrix(m, 1, 83);
     Eigen::VectorXd y = Eigen::VectorXd::Zero(m), w = Eigen::VectorXd::Zero(n);
     M.add_product(2, x, y);
