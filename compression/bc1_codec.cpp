@@ -117,8 +117,8 @@ Bc1Ends outermost(const Bc1Texels& texels, const PrincipalAxis& axis) {
   }
   Bc1Ends ends{};
   for (std::size_t c = 0; c < bc1_channels; ++c)
-    ends[c] = {static_cast<int>(texels.code[c][least] / bc1_step[c] + 0.5F),
-               static_cast<int>(texels.code[c][most] / bc1_step[c] + 0.5F)};
+    ends[c] = {nearest_whole(texels.code[c][least] / bc1_step[c]),
+               nearest_whole(texels.code[c][most] / bc1_step[c])};
   return ends;
 }
 

@@ -53,8 +53,8 @@ class Bc4Mode {
   std::array<int, 2> outermost_ends() const {
     const auto counts = (texels_.weight * between() > 0).eval();
     if (!counts.any()) return {0, 0};
-    return {static_cast<int>(counts.select(texels_.code, largest_code).minCoeff() + 0.5F),
-            static_cast<int>(counts.select(texels_.code, 0).maxCoeff() + 0.5F)};
+    return {nearest_whole(counts.select(texels_.code, largest_code).minCoeff()),
+            nearest_whole(counts.select(texels_.code, 0).maxCoeff())};
   }
 
   /// So many standard deviations from the mean that noise fills what is between.

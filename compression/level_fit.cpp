@@ -38,7 +38,7 @@ std::array<int, 2> LevelFit::ends(const Texels& code, float total_code, float st
   const auto most = static_cast<float>(largest);
   const auto second_for = [&](float first) {
     const float second = (second_code - first_second_ * first) * inverse_second_;
-    return inverse_second_ > 0 ? static_cast<int>(bounded(second, most) + 0.5F) : static_cast<int>(first);
+    return inverse_second_ > 0 ? nearest_whole(bounded(second, most)) : static_cast<int>(first);
   };
   // The squared error but for a constant.
   const auto error = [&](float a, int second) {

@@ -9,6 +9,13 @@ namespace radiosity {
 /// One number of each of 4 x 4 texels, by rows.
 using Texels = Eigen::Array<float, 16, 1>;
 
+/// The whole number nearest to one that is not negative, halves up; std::lround would take longer than all of
+/// the rest.
+inline int nearest_whole(float number) {
+  const float half_up = number + 0.5F;
+  return static_cast<int>(half_up);
+}
+
 /// Sixteen numbers as points between two ends, with the same shares for every channel:
 ///
 ///   x_t ~ (1 - share_t) first + share_t second.

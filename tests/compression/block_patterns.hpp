@@ -40,8 +40,10 @@ inline Texels random_codes(RandomStream& random) {
   const double base = random.uniform(30, 225), across = random.uniform(-8, 8), down = random.uniform(-8, 8);
   const double noise = std::exp(random.uniform(-1, 4));
   Texels code;
-  for (int t = 0; t < 16; ++t)
-    code[t] = static_cast<float>(base + across * (t % 4) + down * (t / 4) + random.uniform(-noise, noise));
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      code[4 * row + column] =
+          static_cast<float>(base + across * column + down * row + random.uniform(-noise, noise));
   return code.max(0).min(255).round();
 }
 
