@@ -24,33 +24,23 @@ Eigen::VectorXd kernel_row_sums(const KernelOperator& kernel) {
   return sums.col(0).cwiseQuotient(kernel.root_area());
 }
 
-/// sum_j F~_ij of any operator T~ = R F~; 0 where no channel reflects.
-Eigen::VectorXd operator_row_sums(const LinearOperator& transport, const Eigen::MatrixXd& reflectance) {
-  Field sums(transport.size(), transport.channels());
-  transport.apply(Field::Ones(transport.size(), transport.channels()), sums);
-  Eigen::VectorXd rows = Eigen::VectorXd::Zero(transport.size());
-  for (Index i = 0; i < transport.size(); ++i) {
-    Index channel = 0;
-    const double rho = reflectance.row(i).maxCoeff(&channel);
-    if (rho > 0) rows[i] = sums(i, channel) / rho;
-  }
-  return rows;
-}
-
-/// D T~.
+/// D T~, with one D a channel: matrices of their own for each channel are off differently.
 class RowClosedOperator final : public LinearOperator {
  public:
   RowClosedOperator(std::unique_ptr<LinearOperator> approximation, const FormFactors& form_factors)
       : approximation_(std::move(approximation)) {
     const Eigen::MatrixXd& reflectance = form_factors.mesh->reflectance;
     const Eigen::VectorXd target = form_factors.row_sums();
-    const Eigen::VectorXd reached = operator_row_sums(*approximation_, reflectance);
-    factors_ = Eigen::VectorXd::Ones(target.size());
-    for (Index i = 0; i < target.size(); ++i) {
-      if (target[i] <= 0 || reflectance.row(i).maxCoeff() <= 0) continue;
-      if (reached[i] > 0)
-        factors_[i] = target[i] / reached[i];
-      else
+    const Field ones = Field::Ones(size(), channels());
+    Field reached(size(), channels());  // rho_i sum_j F~_ij
+    approximation_->apply(ones, reached);
+    factors_ = ones;
+    for (Index i = 0; i < size(); ++i) {
+      for (Index c = 0; c < channels(); ++c)
+        if (target[i] > 0 && reached(i, c) > 0)
+          factors_(i, c) = reflectance(i, c) * target[i] / reached(i, c);
+      Index brightest = 0;
+      if (reflectance.row(i).maxCoeff(&brightest) > 0 && target[i] > 0 && !(reached(i, brightest) > 0))
         ++empty_rows_;
     }
   }
@@ -59,7 +49,7 @@ class RowClosedOperator final : public LinearOperator {
   Index channels() const override { return approximation_->channels(); }
   ByteCount bytes() const override {
     ByteCount bytes = approximation_->bytes();
-    bytes.parts.emplace_back("closure", sizeof(double) * static_cast<std::size_t>(size()));
+    bytes.parts.emplace_back("closure", sizeof(double) * static_cast<std::size_t>(factors_.size()));
     return bytes;
   }
   std::string describe() const override { return with_keys(approximation_->describe(), "closure=rows"); }
@@ -73,12 +63,12 @@ class RowClosedOperator final : public LinearOperator {
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override {
     Field product(X.rows(), X.cols());
     approximation_->apply(X, product);
-    add_product((alpha * factors_).replicate(1, channels()), product, beta, Y);
+    add_product(alpha * factors_.array(), product, beta, Y);
   }
 
  private:
   std::unique_ptr<LinearOperator> approximation_;
-  Eigen::VectorXd factors_;  // d, n
+  Field factors_;  // d, n x channels
   Index empty_rows_ = 0;
 };
 
