@@ -57,4 +57,18 @@ Eigen::MatrixXd pull_back_to_corners(const SimplifiedScene& simplified, const Pa
   return result;
 }
 
+Eigen::MatrixXd radiosity_of_patches(const SimplifiedScene& simplified, const PatchMesh& original,
+                                     const Eigen::MatrixXd& irradiance) {
+  return original.emission +
+         original.reflectance.cwiseProduct(pull_back_to_patches(simplified, original, irradiance));
+}
+
+Eigen::MatrixXd radiosity_of_corners(const SimplifiedScene& simplified, const PatchMesh& original,
+                                     const Eigen::MatrixXd& irradiance) {
+  Eigen::MatrixXd B = pull_back_to_corners(simplified, original, irradiance);
+  for (Index row = 0; row < B.rows(); ++row)
+    B.row(row) = original.emission.row(row / 4) + original.reflectance.row(row / 4).cwiseProduct(B.row(row));
+  return B;
+}
+
 }  // namespace radiosity

@@ -19,4 +19,13 @@ Eigen::MatrixXd pull_back_to_patches(const SimplifiedScene& simplified, const Pa
 Eigen::MatrixXd pull_back_to_corners(const SimplifiedScene& simplified, const PatchMesh& original,
                                      const Eigen::MatrixXd& field);
 
+/// B = E + rho H of the original, with its own E and rho, where H is the irradiance of the simplified scene
+/// (m x channels, W/m^2) pulled back to the patches, n x channels.
+Eigen::MatrixXd radiosity_of_patches(const SimplifiedScene& simplified, const PatchMesh& original,
+                                     const Eigen::MatrixXd& irradiance);
+
+/// The same at the corners, 4 n x channels as above.
+Eigen::MatrixXd radiosity_of_corners(const SimplifiedScene& simplified, const PatchMesh& original,
+                                     const Eigen::MatrixXd& irradiance);
+
 }  // namespace radiosity

@@ -13,6 +13,10 @@ namespace {
 constexpr double kFull = 1e-6;
 // The least side of a rectangle, relative to its cell.
 constexpr double kLeastSide = 1e-6;
+// Quads that face each other nearer than this, relative to their cell, are one sheet: where the surfaces that
+// they stand for lie among each other, and in any case.
+constexpr double kInvertedSheet = 0.1;
+constexpr double kClosedGap = 1e-3;
 
 std::uint64_t quad_key(const VoxelFragment& fragment) {
   return 6 * fragment.cell + static_cast<std::uint64_t>(fragment.direction);
@@ -20,26 +24,31 @@ std::uint64_t quad_key(const VoxelFragment& fragment) {
 
 /// Sums over the fragments of one quad.
 struct VoxelSums {
+  std::uint64_t cell = 0;
+  int direction = 0;
   double area = 0;
   double projected = 0;              // along the direction
-  Vector3 slope = Vector3::Zero();   // area times squared components of the normal
   Vector3 moment = Vector3::Zero();  // area times centroid
   Eigen::AlignedBox3d extent;
   Eigen::RowVectorXd reflected, power;
   std::map<int, double> groups;
+
+  /// Area-weighted, along the direction.
+  double offset() const { return moment[axis_of(direction)] / area; }
 };
 
 VoxelSums sum_up(const PatchMesh& mesh, const std::vector<VoxelFragment>& fragments,
                  std::span<const std::size_t> members) {
   VoxelSums sums;
   sums.reflected = sums.power = Eigen::RowVectorXd::Zero(mesh.channels());
-  const int axis = axis_of(fragments[members.front()].direction);
+  sums.cell = fragments[members.front()].cell;
+  sums.direction = fragments[members.front()].direction;
+  const int axis = axis_of(sums.direction);
   for (const std::size_t member : members) {
     const VoxelFragment& fragment = fragments[member];
     const Vector3 normal = mesh.normal.col(fragment.patch);
     sums.area += fragment.area;
     sums.projected += fragment.area * std::abs(normal[axis]);
-    sums.slope += fragment.area * normal.cwiseAbs2();
     sums.moment += fragment.area * fragment.centroid;
     sums.extent.extend(fragment.extent);
     sums.reflected += fragment.area * mesh.reflectance.row(fragment.patch);
@@ -49,16 +58,10 @@ VoxelSums sum_up(const PatchMesh& mesh, const std::vector<VoxelFragment>& fragme
   return sums;
 }
 
-/// Factors of the sides of the rectangle around the projection.
-std::pair<double, double> side_factors(const VoxelSums& sums, int axis, int u, int v) {
-  const Vector3 sides = sums.extent.sizes();
-  const double filled = sums.projected / (sides[u] * sides[v]);
-  const double shrink = filled < 1 - kFull ? std::sqrt(filled) : 1.0;
-  const double stretch = sums.area / sums.projected;
-  const double steepness = sums.slope[u] + sums.slope[v];
-  if (!(steepness > kFull * sums.slope[axis])) return {shrink, shrink};
-  const double along_u = sums.slope[u] / steepness;
-  return {shrink * std::pow(stretch, along_u), shrink * std::pow(stretch, 1 - along_u)};
+/// Of the sides of the rectangle around the projection.
+double shrinkage(const VoxelSums& sums, int u, int v) {
+  const double filled = sums.projected / (sums.extent.sizes()[u] * sums.extent.sizes()[v]);
+  return filled < 1 - kFull ? std::sqrt(filled) : 1.0;
 }
 
 /// [low, high] scaled about a point in it, but no narrower than `least`.
@@ -71,8 +74,20 @@ std::pair<double, double> scaled(double low, double high, double centre, double 
   return missing > 0 ? std::pair(low - missing / 2, high + missing / 2) : std::pair(low, high);
 }
 
-Polygon rectangle(VoxelSums& sums, int direction, const VoxelGrid& grid) {
-  const int axis = axis_of(direction), u = (axis + 1) % 3, v = (axis + 2) % 3;
+/// Puts the two sides of what became a wall with its fronts inside, by averaging, into one plane.
+void close_gap(VoxelSums& positive, VoxelSums& negative, const VoxelGrid& grid) {
+  const int axis = axis_of(positive.direction);
+  const double gap = negative.offset() - positive.offset();
+  const bool interleaved = positive.extent.max()[axis] > negative.extent.min()[axis];
+  const double least = (interleaved ? kInvertedSheet : kClosedGap) * grid.cell()[axis];
+  if (!(gap > 0) || gap > least) return;
+  const double common = (positive.moment[axis] + negative.moment[axis]) / (positive.area + negative.area);
+  positive.moment[axis] = common * positive.area;
+  negative.moment[axis] = common * negative.area;
+}
+
+Polygon rectangle(VoxelSums& sums, const VoxelGrid& grid) {
+  const int axis = axis_of(sums.direction), u = (axis + 1) % 3, v = (axis + 2) % 3;
   for (const int side : {u, v}) {  // what has no width has no area to be compared with
     const double missing = kLeastSide * grid.cell()[side] - sums.extent.sizes()[side];
     if (missing <= 0) continue;
@@ -80,11 +95,11 @@ Polygon rectangle(VoxelSums& sums, int direction, const VoxelGrid& grid) {
     sums.extent.max()[side] += missing / 2;
   }
   const Vector3 centre = sums.moment / sums.area;
-  const auto [factor_u, factor_v] = side_factors(sums, axis, u, v);
+  const double factor = shrinkage(sums, u, v);
   const auto [u_low, u_high] =
-      scaled(sums.extent.min()[u], sums.extent.max()[u], centre[u], factor_u, kLeastSide * grid.cell()[u]);
+      scaled(sums.extent.min()[u], sums.extent.max()[u], centre[u], factor, kLeastSide * grid.cell()[u]);
   const auto [v_low, v_high] =
-      scaled(sums.extent.min()[v], sums.extent.max()[v], centre[v], factor_v, kLeastSide * grid.cell()[v]);
+      scaled(sums.extent.min()[v], sums.extent.max()[v], centre[v], factor, kLeastSide * grid.cell()[v]);
   const auto corner = [&](double at_u, double at_v) {
     Vector3 point = centre;
     point[u] = at_u;
@@ -93,13 +108,13 @@ Polygon rectangle(VoxelSums& sums, int direction, const VoxelGrid& grid) {
   };
   Polygon corners = {corner(u_low, v_low), corner(u_high, v_low), corner(u_high, v_high),
                      corner(u_low, v_high)};
-  if (sign_of(direction) < 0) std::reverse(corners.begin(), corners.end());
+  if (sign_of(sums.direction) < 0) std::reverse(corners.begin(), corners.end());
   return corners;
 }
 
-VoxelQuad make_quad(VoxelSums sums, int direction, const VoxelGrid& grid) {
+VoxelQuad make_quad(VoxelSums& sums, const VoxelGrid& grid) {
   VoxelQuad quad;
-  quad.corners = rectangle(sums, direction, grid);
+  quad.corners = rectangle(sums, grid);
   quad.reflectance = (sums.reflected / sums.area).cwiseMin(1);  // a mean of ones may be rounded up
   quad.emission = sums.power / area_vector(quad.corners).norm();
   quad.group = std::max_element(sums.groups.begin(), sums.groups.end(), [](const auto& a, const auto& b) {
@@ -117,12 +132,17 @@ std::vector<VoxelQuad> voxel_quads(const PatchMesh& mesh, const VoxelGrid& grid,
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t member) { return quad_key(fragments[member]); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  std::vector<VoxelQuad> quads;
+  std::vector<VoxelSums> sums;
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     while (end < order.size() && key(order[end]) == key(order[begin])) ++end;
-    const std::span<const std::size_t> members(order.data() + begin, end - begin);
-    quads.push_back(make_quad(sum_up(mesh, fragments, members), fragments[members.front()].direction, grid));
+    sums.push_back(sum_up(mesh, fragments, {order.data() + begin, end - begin}));
   }
+  for (std::size_t k = 1; k < sums.size(); ++k)
+    if (sums[k - 1].cell == sums[k].cell && axis_of(sums[k - 1].direction) == axis_of(sums[k].direction))
+      close_gap(sums[k - 1], sums[k], grid);
+  std::vector<VoxelQuad> quads;
+  quads.reserve(sums.size());
+  for (VoxelSums& each : sums) quads.push_back(make_quad(each, grid));
   return quads;
 }
 

@@ -11,13 +11,20 @@ namespace radiosity {
 /// What stands for all fragments of one cell that look in one of the six directions: an axis-aligned
 /// rectangle.
 ///
-/// It lies at their area-weighted offset. Let A be their area, P its projection on the plane of the
-/// rectangle, and |R| the area of the rectangle around the projection. The rectangle has the area A min(1,
-/// |R| / P): R itself where the fragments fill it, shrunk about their centroid where they do not (a
-/// triangle), and stretched by A / P along the slope where they are tilted, at most by sqrt(3), so that it
-/// reaches into the cells beside it. So area, and with it absorption, is conserved wherever a cell holds a
-/// single layer; of layers behind each other one is left. Power is conserved in any case: the emission is sum
-/// A E over the area of the rectangle. An axis-aligned wall becomes itself, without gap or overlap.
+/// It lies at their area-weighted offset. Let P be their area projected along the direction and |R| that of
+/// the rectangle around the projection: the quad is R if the fragments fill it (P >= |R|), else R shrunk
+/// about their centroid to the area P (a triangle). So it stays in its cell, quads of different cells never
+/// overlap, and an axis-aligned wall becomes itself, without gap or overlap. What a single layer of surface
+/// blocks and receives along the axis is conserved; a slope loses area, by a factor of sqrt(3) at most, and
+/// of layers behind each other one is left. (Quads stretched along the slope to the true area were tried:
+/// they reach into each other and made the indirect light of most rooms worse.) Power is conserved in any
+/// case: the emission is sum A E over the area of the quad. The reflectance is the mean weighted by true
+/// area.
+///
+/// The two directions of one axis may swap places by averaging, so that what was a wall seen from both sides
+/// would be a slit seen from within: such pairs (fragments of both lie among each other, the quads face each
+/// other within a tenth of a cell), and slits below a thousandth of a cell, become a sheet in their common
+/// plane.
 struct VoxelQuad {
   Polygon corners;                 ///< 4, counter-clockwise seen from the front
   Eigen::RowVectorXd reflectance;  ///< 1 x channels, area-weighted mean

@@ -108,6 +108,8 @@ SimplifiedScene simplify_to_voxels(const PatchMesh& mesh, const VoxelGrid& grid)
     simplified->reflectance.row(i) = quads[face].reflectance;
     simplified->emission.row(i) = quads[face].emission;
   }
+  // Gaps between voxels are no windows.
+  simplified->topology.enclosure = simplified->topology.enclosure || mesh.topology.enclosure;
   return {std::move(simplified), grid, std::move(fragments)};
 }
 

@@ -26,7 +26,9 @@ struct SimplifiedScene {
 ///
 /// What it does not keep: a slope becomes a stair of treads without risers, and where surfaces of different
 /// offset that look the same way share a cell, their quad stands between them. Light passes through the gaps,
-/// as wide as a cell at most, and is absorbed on the backs or lost. Axis-aligned walls leak nothing.
+/// as wide as a cell at most, and is absorbed on the backs or lost. Axis-aligned walls leak nothing. Where
+/// the original is an enclosure, so is the result (topology.enclosure, though the quads may not be closed):
+/// what leaks out counts as arrived, and the symmetric closure of form factors brings it back.
 ///
 /// Throws UsageError for wanted < 1 and for more quads than a grid of 2^20 cells each way can have.
 SimplifiedScene simplify_to_voxels(const PatchMesh& mesh, Index wanted);
