@@ -1,7 +1,7 @@
 #include "apps/solution.hpp"
 
-#include "apps/energy_balance.hpp"
 #include "foundation/stopwatch.hpp"
+#include "operators/irradiance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -71,6 +71,12 @@ Json reference_json(const ReferenceComparison& reference) {
           {"groups", groups}};
 }
 
+Json simplification_json(const SimplificationSummary& simplification) {
+  return {{"triangles", simplification.triangles}, {"original_patches", simplification.original_patches},
+          {"patches", simplification.patches},     {"cell", numbers_json(simplification.cell)},
+          {"seconds", simplification.seconds},     {"transfer_seconds", simplification.transfer_seconds}};
+}
+
 }  // namespace
 
 void print_solution(const FormFactors& form_factors, const SolutionReport& report) {
@@ -120,7 +126,9 @@ void write_solution_json(const std::filesystem::path& file, const FormFactors& f
                     {"certificate", certificate_json(report.certificate)},
                     {"groups", groups},
                     {"energy", energy},
-                    {"reference", report.reference ? reference_json(*report.reference) : Json(nullptr)}});
+                    {"reference", report.reference ? reference_json(*report.reference) : Json(nullptr)},
+                    {"simplification",
+                     report.simplification ? simplification_json(*report.simplification) : Json(nullptr)}});
 }
 
 }  // namespace radiosity

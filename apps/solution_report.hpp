@@ -2,6 +2,7 @@
 
 #include "apps/energy_balance.hpp"
 #include "apps/group_summary.hpp"
+#include "apps/simplification.hpp"
 #include "apps/solution.hpp"
 #include "experiments/certification.hpp"
 #include "render/reference_comparison.hpp"
@@ -20,6 +21,9 @@ struct SolutionReport {
       certificate;                   ///< empty where F has no symmetric kernel, or with --no-certificate
   std::vector<GroupSummary> groups;  ///< mean radiosity of each group
   std::optional<ReferenceComparison> reference;  ///< with --reference
+  /// With --simplify: solution, energy and certificate are of the simplified scene, groups and reference of
+  /// the original.
+  std::optional<SimplificationSummary> simplification;
 };
 
 /// The summary for a person, on standard output.

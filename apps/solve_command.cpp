@@ -6,6 +6,7 @@
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/scene_options.hpp"
+#include "apps/simplification.hpp"
 #include "apps/solution.hpp"
 #include "apps/solution_report.hpp"
 #include "apps/terminal_monitor.hpp"
@@ -19,9 +20,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +37,7 @@ struct SolveOptions {
   SolutionRequest request;
   RunOptions run;
   std::string lights;
+  std::optional<std::string> simplify;  ///< "voxels:N"; else the scene itself is solved
   bool no_certificate = false;
   Index certificate_rows = 0;  ///< 0: from products with the whole kernel
   std::filesystem::path error_bounds_file;
@@ -77,51 +81,76 @@ FormFactors without_factors(const SolveOptions& options, std::shared_ptr<const P
   return form_factors;
 }
 
+/// Certifies B of what was solved, or says in a note why it cannot.
+std::optional<CertificateSummary> certify_solution(const SolveOptions& options,
+                                                   const FormFactors& form_factors, const Field& emission,
+                                                   const Field& radiosity, std::vector<std::string>& notes) {
+  // Rows of their own: another seed, and a tolerance that leaves the assembled factors' error visible.
+  if (options.certificate_rows > 0)
+    return certify_from_rows(form_factors.mesh, options.certificate_rows,
+                             options.form_factors.options.tolerance / 10, options.run.seed + 1, emission,
+                             radiosity);
+  if (!form_factors.kernel && !form_factors.unsymmetric) {
+    notes.emplace_back("no F was assembled to certify B with: --certificate-rows N samples it");
+    return std::nullopt;
+  }
+  const auto certifier = Certifier::make(form_factors, options.run.seed);
+  return certifier ? std::optional(certifier->certify(emission, radiosity)) : std::nullopt;
+}
+
 void run_solve(SolveOptions options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
   require_device(options.run);
   check_outputs(options);
+  const std::optional<Index> voxels = wanted_voxels(options.simplify);
   options.form_factors.options.seed = options.run.seed;
   options.paths.seed = options.run.seed;
 
   TerminalMonitor monitor(options.run.quiet);
-  const auto mesh = open_mesh(options.scene);
+  const auto original = open_mesh(options.scene);
+  const Field original_emission = light_of(options, *original, monitor);
+  std::optional<Simplification> simplification;
+  if (voxels) {
+    monitor.checkpoint("simplification", 0);
+    simplification.emplace(*original, original_emission, *voxels);
+  }
+  // What is solved: itself, or what is simplified.
+  const std::shared_ptr<const PatchMesh> mesh = simplification ? simplification->mesh() : original;
+  const Field& emission = simplification ? mesh->emission : original_emission;
   const bool assembled = program.operators.needs_form_factors(options.request.operator_spec);
   const FormFactors form_factors =
       assembled ? obtain_form_factors(mesh, options.form_factors, monitor) : without_factors(options, mesh);
-  const Field emission = light_of(options, *mesh, monitor);
 
-  std::vector<std::string> notes = mesh->notes;
+  std::vector<std::string> notes = original->notes;
   SolutionReport report;
   report.solution = solve_scene(form_factors, emission, options.request, program, monitor);
   report.energy = energy_balance(*mesh, emission, report.solution.radiosity, report.solution.irradiance);
   if (!options.no_certificate) {
     monitor.checkpoint("certificate", 0);
-    if (options.certificate_rows > 0) {
-      // Rows of their own: another seed, and a tolerance that leaves the assembled factors' error visible.
-      report.certificate =
-          certify_from_rows(mesh, options.certificate_rows, options.form_factors.options.tolerance / 10,
-                            options.run.seed + 1, emission, report.solution.radiosity);
-    } else if (!assembled) {
-      notes.emplace_back("no F was assembled to certify B with: --certificate-rows N samples it");
-    } else if (const auto certifier = Certifier::make(form_factors, options.run.seed)) {
-      report.certificate = certifier->certify(emission, report.solution.radiosity);
-    }
+    report.certificate = certify_solution(options, form_factors, emission, report.solution.radiosity, notes);
   }
   Field error_bounds;
   if (!options.error_bounds_file.empty())
     error_bounds = bound_patch_errors(form_factors, emission, report.solution.radiosity);
-  report.groups = summarize_groups(*mesh, report.solution.radiosity);
+  const Field radiosity =
+      simplification ? simplification->patches(report.solution.irradiance) : report.solution.radiosity;
+  if (simplification) {
+    report.simplification = simplification->summary();
+    notes.push_back(simplification->note());
+  }
+  report.groups = summarize_groups(*original, radiosity);
   if (options.reference) {
-    PatchMesh lit = *mesh;
-    lit.emission = emission;
-    report.reference =
-        compare_with_reference(lit, report.solution.radiosity, trace_paths(lit, options.paths, monitor));
+    PatchMesh lit = *original;
+    lit.emission = original_emission;
+    report.reference = compare_with_reference(lit, radiosity, trace_paths(lit, options.paths, monitor));
   }
 
   if (!form_factors.quality.closure_note.empty()) notes.push_back(form_factors.quality.closure_note);
+  const Field corners = simplification && options.picture.interpolate
+                            ? simplification->corners(report.solution.irradiance)
+                            : Field();
   for (const std::filesystem::path& output : options.outputs)
-    notes.push_back(write_solution(output, *mesh, report.solution.radiosity, options.picture, monitor));
+    notes.push_back(write_solution(output, *original, radiosity, options.picture, monitor, corners));
   if (!options.error_bounds_file.empty()) write_npy(options.error_bounds_file, error_bounds);
   if (!options.json_file.empty()) write_solution_json(options.json_file, form_factors, report);
   monitor.clear();
@@ -165,9 +194,11 @@ void add_solve_command(CLI::App& app, const Program& program) {
       ->option_text("PIXELS");
   command->add_flag("--interpolate", options->picture.interpolate,
                     "shade the picture smoothly in place of flat patches");
+  CLI::Option* simplify = add_simplify_option(*command, options->simplify);
   command
       ->add_option("--error-bounds", options->error_bounds_file,
                    "write a proved bound on the error of each patch's radiosity, for this F")
+      ->excludes(simplify)
       ->option_text("FILE.npy");
   CLI::Option* none =
       command->add_flag("--no-certificate", options->no_certificate,

@@ -13,10 +13,14 @@
 namespace radiosity {
 namespace {
 
-void check(const PatchMesh& mesh, const Eigen::MatrixXd& B, const PictureOptions& options) {
+void check(const PatchMesh& mesh, const Eigen::MatrixXd& B, const Eigen::MatrixXd& corners,
+           const PictureOptions& options) {
   if (B.rows() != mesh.patch_count() || (B.cols() != 1 && B.cols() != 3))
     fail<UsageError>("a picture needs a radiosity of {} x 1 or {} x 3, not {} x {}", mesh.patch_count(),
                      mesh.patch_count(), B.rows(), B.cols());
+  if (corners.size() > 0 && (corners.rows() != 4 * mesh.patch_count() || corners.cols() != B.cols()))
+    fail<UsageError>("the radiosity at corners is {} x {}, not {} x {}", corners.rows(), corners.cols(),
+                     4 * mesh.patch_count(), B.cols());
   constexpr int largest = 16384;
   if (options.width < 1 || options.width > largest || options.height < 1 || options.height > largest)
     fail<UsageError>("a picture of {} x {} pixels is out of range; 1 to {} are possible each way",
@@ -29,8 +33,9 @@ void check(const PatchMesh& mesh, const Eigen::MatrixXd& B, const PictureOptions
 /// B itself or interpolated from the corners, as linear RGB.
 class Shading {
  public:
-  Shading(const PatchMesh& mesh, const Eigen::MatrixXd& B, bool interpolate) : B_(B) {
-    if (interpolate) corners_.emplace(mesh, B);
+  Shading(const PatchMesh& mesh, const Eigen::MatrixXd& B, const Eigen::MatrixXd& corners, bool interpolate)
+      : B_(B) {
+    if (interpolate) corners_.emplace(mesh, corners.size() > 0 ? corners : B);
   }
 
   Color radiance(const PatchHit& hit) const {
@@ -46,13 +51,13 @@ class Shading {
 }  // namespace
 
 Picture render_picture(const PatchMesh& mesh, const Eigen::MatrixXd& B, const PictureOptions& options,
-                       Monitor& monitor) {
-  check(mesh, B, options);
+                       Monitor& monitor, const Eigen::MatrixXd& corners) {
+  check(mesh, B, corners, options);
   const bool own_camera = mesh.scene && mesh.scene->camera.has_value();
   const CameraRays camera(own_camera ? *mesh.scene->camera : default_camera(mesh), options.width,
                           options.height);
   const PatchRays rays(mesh);
-  const Shading shading(mesh, B, options.interpolate);
+  const Shading shading(mesh, B, corners, options.interpolate);
   const int samples = options.supersampling;
 
   Picture picture{options.width, options.height, {}};

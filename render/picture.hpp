@@ -30,10 +30,11 @@ struct PictureOptions {
 };
 
 /// Draws the radiance B / pi of the patches from the scene's camera, or from default_camera() where it has
-/// none. B is n x 1 or n x 3, W/m^2. Backs are looked through, so that a closed room can be seen from
+/// none. B is n x 1 or n x 3, W/m^2. Interpolation starts from `corners` (4 n rows, as in VertexRadiosity) if
+/// they are given, else from B. Backs are looked through, so that a closed room can be seen from
 /// outside; where a ray meets no front the picture is black. Throws UsageError for wrong shapes and options
 /// out of range.
 Picture render_picture(const PatchMesh& mesh, const Eigen::MatrixXd& B, const PictureOptions& options,
-                       Monitor& monitor);
+                       Monitor& monitor, const Eigen::MatrixXd& corners = {});
 
 }  // namespace radiosity

@@ -1,5 +1,7 @@
 #include "render/vertex_radiosity.hpp"
 
+#include "foundation/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,6 +26,10 @@ struct Slot {
 
 VertexRadiosity::VertexRadiosity(const PatchMesh& mesh, const Eigen::MatrixXd& B)
     : mesh_(mesh), slots_(mesh.patches.size()) {
+  const Index n = mesh.patch_count();
+  if (B.rows() != n && B.rows() != 4 * n)
+    fail<UsageError>("radiosity at vertices needs {} rows, or {} for each corner, not {}", n, 4 * n,
+                     B.rows());
   std::map<CornerKey, std::vector<Slot>> corners;
   Index rows = 0;
   for (Index i = 0; i < mesh.patch_count(); ++i) {
@@ -43,7 +49,7 @@ VertexRadiosity::VertexRadiosity(const PatchMesh& mesh, const Eigen::MatrixXd& B
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(rows);
   for (Index i = 0; i < mesh.patch_count(); ++i)
     for (int k = 0; k < mesh.patches[static_cast<std::size_t>(i)].corner_count; ++k) {
-      values_.row(slot(i, k)) += mesh.area[i] * B.row(i);
+      values_.row(slot(i, k)) += mesh.area[i] * B.row(B.rows() == n ? i : 4 * i + k);
       weight[slot(i, k)] += mesh.area[i];
     }
   values_.array().colwise() /= weight.array();

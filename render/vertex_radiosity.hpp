@@ -15,7 +15,8 @@ namespace radiosity {
 /// its neighbours (003's Fig. 7).
 class VertexRadiosity {
  public:
-  /// B is n x c, W/m^2.
+  /// B is n x c, W/m^2; or 4 n x c where it is known at the corners, corner k of patch i in row 4 i + k.
+  /// Throws UsageError for another number of rows.
   VertexRadiosity(const PatchMesh& mesh, const Eigen::MatrixXd& B);
 
   /// Corner k of a patch, 1 x c, W/m^2.

@@ -65,7 +65,7 @@ void check_solution_format(const std::filesystem::path& file) {
 }
 
 std::string write_solution(const std::filesystem::path& file, const PatchMesh& mesh, const Eigen::MatrixXd& B,
-                           const PictureOptions& picture, Monitor& monitor) {
+                           const PictureOptions& picture, Monitor& monitor, const Eigen::MatrixXd& corners) {
   check_solution_format(file);
   const std::string extension = extension_of(file);
   if (B.rows() != mesh.patch_count())
@@ -78,7 +78,7 @@ std::string write_solution(const std::filesystem::path& file, const PatchMesh& m
   if (B.cols() != 1 && B.cols() != 3)
     fail<UsageError>("cannot write '{}': colours need 1 or 3 channels, not {}", file.string(), B.cols());
   if (extension == ".exr" || extension == ".png")
-    return write_picture(file, render_picture(mesh, B, picture, monitor));
+    return write_picture(file, render_picture(mesh, B, picture, monitor, corners));
   return write_mesh(file, mesh, B);
 }
 

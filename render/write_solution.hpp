@@ -22,10 +22,11 @@ void check_solution_format(const std::filesystem::path& file);
 
 /// Writes a solution B (n x 1 or n x 3, W/m^2) in the format that the extension names:
 /// .glb and .ply (patches with colours), .exr and .png (picture from the scene's camera), .npy (B as it is, n
-/// x c). `picture` is for .exr and .png only. Returns one sentence about what was written, with the exposure
-/// where there is one. Appears whole or not at all. Throws UsageError for an unknown extension or a wrong
-/// shape of B, Error if it cannot write.
+/// x c). `picture` and `corners` (of render_picture) are for .exr and .png only. Returns one sentence about
+/// what was written, with the exposure where there is one. Appears whole or not at all. Throws UsageError for
+/// an unknown extension or a wrong shape of B, Error if it cannot write.
 std::string write_solution(const std::filesystem::path& file, const PatchMesh& mesh, const Eigen::MatrixXd& B,
-                           const PictureOptions& picture, Monitor& monitor);
+                           const PictureOptions& picture, Monitor& monitor,
+                           const Eigen::MatrixXd& corners = {});
 
 }  // namespace radiosity

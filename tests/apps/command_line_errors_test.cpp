@@ -132,7 +132,22 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"patches_and_edge",
                 {"solve", "cube", "--patches", "24", "--edge", "1"},
                 2,
-                {"--patches", "--edge"}}),
+                {"--patches", "--edge"}},
+        Refusal{"simplify_unknown_way",
+                {"solve", "cube", "--simplify", "edges:100"},
+                2,
+                {"edges:100", "voxels:N"}},
+        Refusal{"simplify_without_number", {"solve", "cube", "--simplify", "voxels"}, 2, {"voxels:N"}},
+        Refusal{"simplify_zero", {"solve", "cube", "--simplify", "voxels:0"}, 2, {"voxels:0", "1 to"}},
+        Refusal{"simplify_empty", {"solve", "cube", "--simplify", ""}, 2, {"--simplify", "voxels:N"}},
+        Refusal{"simplify_with_error_bounds",
+                {"solve", "cube", "--simplify", "voxels:24", "--error-bounds", "b.npy"},
+                2,
+                {"--simplify", "--error-bounds"}},
+        Refusal{"simplify_kernel_of_original",
+                {"solve", "cube", "--simplify", "voxels:24", "--kernel", "cube.kernel"},
+                1,
+                {"cube.kernel"}}),
     refusal_name);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -70,6 +70,36 @@ TEST(FormFactors, GivesTheMatrixAndTheGroups) {
   EXPECT_NEAR(json["matrix"][0][1].get<double>(), 0.199824896, 1e-6);
 }
 
+TEST(Solve, LightsTheOriginalFromASimplifiedScene) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"solve",     "cornell-box-closed", "--patches", "60", "--simplify",
+                                        "voxels:60", "--interpolate",      "--width",   "40", "--height",
+                                        "40"};
+  for (const char* file : {"B.npy", "B.glb", "B.ply", "B.png"})
+    arguments.insert(arguments.end(), {"-o", file});
+  arguments.insert(arguments.end(), {"--set", "left:emission=2", "--json", "B.json"});
+  const std::string text = succeed(arguments, folder);
+  EXPECT_NE(text.find("triangles became"), std::string::npos);
+  const Json simplification = read_json(folder.path() / "B.json")["simplification"];
+  const Eigen::MatrixXd B = read_npy(folder.path() / "B.npy");
+  EXPECT_EQ(B.rows(), simplification["original_patches"].get<Eigen::Index>());
+  EXPECT_NEAR(simplification["patches"].get<double>(), 60, 15);
+  EXPECT_GE(B.maxCoeff(), 2);
+  EXPECT_GT(B.minCoeff(), 0);
+  for (const char* file : {"B.glb", "B.ply", "B.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
+}
+
+TEST(Solve, SimplifyingACubeToItsOwnPatchesChangesNothing) {
+  const TemporaryFolder folder;
+  succeed({"solve", "cube", "--patches", "54", "-o", "original.npy"}, folder);
+  succeed({"solve", "cube", "--patches", "54", "--simplify", "voxels:54", "-o", "simplified.npy"}, folder);
+  const Eigen::MatrixXd original = read_npy(folder.path() / "original.npy");
+  const Eigen::MatrixXd simplified = read_npy(folder.path() / "simplified.npy");
+  ASSERT_EQ(simplified.rows(), original.rows());
+  EXPECT_LT((simplified - original).cwiseAbs().maxCoeff(), 1e-5);
+}
+
 TEST(Solve, FindsTheRadiosityOfTheCube) {
   // One patch a face, reflectance 0.5, one face emits 1 W/m^2: known values.
   const TemporaryFolder folder;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace radiosity {
@@ -130,6 +131,28 @@ TEST(VertexRadiosity, AveragesWithinAPlaneAndNotAroundCorners) {
                         vertices.corner(i, 3))[0],
                 1e-12);
   }
+}
+
+TEST(VertexRadiosity, TakesWhatIsKnownAtCorners) {
+  const PatchMesh mesh = make_patches(box_room({1, 1, 1}), {.patches = 24});
+  Eigen::MatrixXd corners(4 * mesh.patch_count(), 1);
+  for (Index i = 0; i < mesh.patch_count(); ++i)
+    for (int k = 0; k < 4; ++k) corners(4 * i + k, 0) = mesh.corner(i, k).sum();
+  const VertexRadiosity vertices(mesh, corners);
+  for (Index i = 0; i < mesh.patch_count(); ++i)
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(vertices.corner(i, k)[0], mesh.corner(i, k).sum(), 1e-12);
+  EXPECT_THROW(VertexRadiosity(mesh, corners.topRows(7)), UsageError);
+  // A picture interpolates from them only if it is asked to.
+  const Eigen::MatrixXd B = Eigen::MatrixXd::Zero(mesh.patch_count(), 1);
+  SilentMonitor monitor;
+  const auto brightest = [&](bool interpolate) {
+    const Picture picture =
+        render_picture(mesh, B, {.width = 8, .height = 8, .interpolate = interpolate}, monitor, corners);
+    return *std::max_element(picture.pixels.begin(), picture.pixels.end());
+  };
+  EXPECT_EQ(brightest(false), 0);
+  EXPECT_GT(brightest(true), 0.1);
+  EXPECT_THROW(render_picture(mesh, B, {}, monitor, corners.topRows(7)), UsageError);
 }
 
 TEST(VertexRadiosity, IsBarycentricOnTriangles) {
