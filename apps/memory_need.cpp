@@ -30,6 +30,7 @@ std::vector<std::vector<Index>> patches_by_face(const PatchMesh& mesh) {
   for (Index i = 0; i < mesh.patch_count(); ++i)
     faces[mesh.patches[static_cast<std::size_t>(i)].face].push_back(i);
   std::vector<std::vector<Index>> lists;
+  lists.reserve(faces.size());
   for (auto& [face, patches] : faces) lists.push_back(std::move(patches));
   return lists;
 }

@@ -70,6 +70,7 @@ CodeOfPart code_of(const ColourCompressionOptions& options, double range) {
 
 std::vector<CodedChannel> coded(std::vector<SplitChannel> channels, const CodeOfPart& code, bool fill) {
   std::vector<CodedChannel> all;
+  all.reserve(channels.size());
   for (SplitChannel& channel : channels)
     all.push_back(code_channel(channel.matrix, std::move(channel.exact), code, fill));
   return all;

@@ -80,8 +80,9 @@ struct Codes {
   /// The number of each texel's own block, whose index is in the three lowest bits.
   static Vector choose(Vector low, Vector high, Words indices) {
     constexpr int select = 0xea;  // (a & b) | c
-    const Words places =
-        _mm512_ternarylogic_epi32(indices, _mm512_set1_epi32(7), lane_pattern<4, 8>(0), select);
+    const Words seven = _mm512_set1_epi32(7);
+    const Words blocks = lane_pattern<4, 8>(0);
+    const Words places = _mm512_ternarylogic_epi32(indices, seven, blocks, select);
     return _mm512_permutex2var_ps(low, places, high);
   }
   static Vector twice(const float* eight) {

@@ -60,7 +60,7 @@ Eigen::MatrixXd column_distances(std::span<const CodeMatrix> codes) {
 std::vector<Index> searched(const std::string& reorder, std::span<const CodeMatrix> codes,
                             const std::vector<Index>& start) {
   const Eigen::MatrixXd distances = squared_row_distances(codes);
-  const std::vector<Index> by_rows = greedily(distances, start);
+  std::vector<Index> by_rows = greedily(distances, start);
   if (reorder == "rows") return by_rows;
   if (reorder == "2opt") return two_opt_order(distances, by_rows);
   return greedily(column_distances(codes), by_rows);
