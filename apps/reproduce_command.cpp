@@ -1,6 +1,7 @@
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/terminal_monitor.hpp"
+#include "experiments/dxt_radiosity/dxt_errors.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
 #include "experiments/low_rank_radiosity/changing_lights.hpp"
@@ -149,15 +150,24 @@ ReportSection run_low_rank_sides(const ReproduceOptions& options, const std::str
   return equal_cost(options.folder, command, sides, program.operators, program.solvers, monitor);
 }
 
-constexpr std::array<Experiment, 9> experiments = {{{"first-light", run_first_light},
-                                                    {"solvers", run_solvers},
-                                                    {"hard-cases", run_hard_case_tables},
-                                                    {"low-rank-pictures", run_low_rank_pictures},
-                                                    {"low-rank-errors", run_low_rank_errors},
-                                                    {"low-rank-sides", run_low_rank_sides},
-                                                    {"low-rank-tables", run_low_rank_tables},
-                                                    {"low-rank-patio", run_low_rank_patio},
-                                                    {"low-rank-motion", run_low_rank_motion}}};
+ReportSection run_dxt_errors(const ReproduceOptions& options, const std::string& command,
+                             const Program& program, Monitor& monitor) {
+  DxtErrorsOptions study;
+  if (options.full) study.patches = 3300;
+  study.seed = options.run.seed;
+  return dxt_errors(options.folder, command, study, program.operators, program.solvers, monitor);
+}
+
+constexpr std::array<Experiment, 10> experiments = {{{"first-light", run_first_light},
+                                                     {"solvers", run_solvers},
+                                                     {"hard-cases", run_hard_case_tables},
+                                                     {"low-rank-pictures", run_low_rank_pictures},
+                                                     {"low-rank-errors", run_low_rank_errors},
+                                                     {"low-rank-sides", run_low_rank_sides},
+                                                     {"low-rank-tables", run_low_rank_tables},
+                                                     {"low-rank-patio", run_low_rank_patio},
+                                                     {"low-rank-motion", run_low_rank_motion},
+                                                     {"dxt-errors", run_dxt_errors}}};
 
 /// "first-light, solvers, ...".
 std::string known_tables() {
