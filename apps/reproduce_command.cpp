@@ -2,6 +2,7 @@
 #include "apps/run_options.hpp"
 #include "apps/terminal_monitor.hpp"
 #include "experiments/dxt_radiosity/dxt_errors.hpp"
+#include "experiments/dxt_radiosity/dxt_speed.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
 #include "experiments/low_rank_radiosity/changing_lights.hpp"
@@ -158,7 +159,19 @@ ReportSection run_dxt_errors(const ReproduceOptions& options, const std::string&
   return dxt_errors(options.folder, command, study, program.operators, program.solvers, monitor);
 }
 
-constexpr std::array<Experiment, 10> experiments = {{{"first-light", run_first_light},
+ReportSection run_dxt_speed(const ReproduceOptions& options, const std::string& command,
+                            const Program& program, Monitor& monitor) {
+  DxtSpeedOptions study;
+  if (options.full) {
+    study.patches = {400, 800, 1600, 3300};
+    study.patches_over_bounces = 3300;
+    study.seconds = 4;
+  }
+  study.seed = options.run.seed;
+  return dxt_speed(options.folder, command, study, program.operators, program.solvers, monitor);
+}
+
+constexpr std::array<Experiment, 11> experiments = {{{"first-light", run_first_light},
                                                      {"solvers", run_solvers},
                                                      {"hard-cases", run_hard_case_tables},
                                                      {"low-rank-pictures", run_low_rank_pictures},
@@ -167,7 +180,8 @@ constexpr std::array<Experiment, 10> experiments = {{{"first-light", run_first_l
                                                      {"low-rank-tables", run_low_rank_tables},
                                                      {"low-rank-patio", run_low_rank_patio},
                                                      {"low-rank-motion", run_low_rank_motion},
-                                                     {"dxt-errors", run_dxt_errors}}};
+                                                     {"dxt-errors", run_dxt_errors},
+                                                     {"dxt-speed", run_dxt_speed}}};
 
 /// "first-light, solvers, ...".
 std::string known_tables() {
