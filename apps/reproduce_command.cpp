@@ -2,6 +2,7 @@
 #include "apps/run_options.hpp"
 #include "apps/terminal_monitor.hpp"
 #include "experiments/dxt_radiosity/dxt_errors.hpp"
+#include "experiments/dxt_radiosity/dxt_pictures.hpp"
 #include "experiments/dxt_radiosity/dxt_speed.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
@@ -171,7 +172,18 @@ ReportSection run_dxt_speed(const ReproduceOptions& options, const std::string& 
   return dxt_speed(options.folder, command, study, program.operators, program.solvers, monitor);
 }
 
-constexpr std::array<Experiment, 11> experiments = {{{"first-light", run_first_light},
+ReportSection run_dxt_pictures(const ReproduceOptions& options, const std::string& command,
+                               const Program& program, Monitor& monitor) {
+  DxtPicturesOptions pictures;
+  if (options.full) {
+    pictures.patches = 1600;
+    pictures.picture_size = 840;
+  }
+  pictures.seed = options.run.seed;
+  return dxt_pictures(options.folder, command, pictures, program.operators, monitor);
+}
+
+constexpr std::array<Experiment, 12> experiments = {{{"first-light", run_first_light},
                                                      {"solvers", run_solvers},
                                                      {"hard-cases", run_hard_case_tables},
                                                      {"low-rank-pictures", run_low_rank_pictures},
@@ -181,7 +193,8 @@ constexpr std::array<Experiment, 11> experiments = {{{"first-light", run_first_l
                                                      {"low-rank-patio", run_low_rank_patio},
                                                      {"low-rank-motion", run_low_rank_motion},
                                                      {"dxt-errors", run_dxt_errors},
-                                                     {"dxt-speed", run_dxt_speed}}};
+                                                     {"dxt-speed", run_dxt_speed},
+                                                     {"dxt-pictures", run_dxt_pictures}}};
 
 /// "first-light, solvers, ...".
 std::string known_tables() {
