@@ -1,6 +1,9 @@
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/terminal_monitor.hpp"
+#include "experiments/dxt_radiosity/dxt_errors.hpp"
+#include "experiments/dxt_radiosity/dxt_pictures.hpp"
+#include "experiments/dxt_radiosity/dxt_speed.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
 #include "experiments/low_rank_radiosity/changing_lights.hpp"
@@ -149,15 +152,49 @@ ReportSection run_low_rank_sides(const ReproduceOptions& options, const std::str
   return equal_cost(options.folder, command, sides, program.operators, program.solvers, monitor);
 }
 
-constexpr std::array<Experiment, 9> experiments = {{{"first-light", run_first_light},
-                                                    {"solvers", run_solvers},
-                                                    {"hard-cases", run_hard_case_tables},
-                                                    {"low-rank-pictures", run_low_rank_pictures},
-                                                    {"low-rank-errors", run_low_rank_errors},
-                                                    {"low-rank-sides", run_low_rank_sides},
-                                                    {"low-rank-tables", run_low_rank_tables},
-                                                    {"low-rank-patio", run_low_rank_patio},
-                                                    {"low-rank-motion", run_low_rank_motion}}};
+ReportSection run_dxt_errors(const ReproduceOptions& options, const std::string& command,
+                             const Program& program, Monitor& monitor) {
+  DxtErrorsOptions study;
+  if (options.full) study.patches = 3300;
+  study.seed = options.run.seed;
+  return dxt_errors(options.folder, command, study, program.operators, program.solvers, monitor);
+}
+
+ReportSection run_dxt_speed(const ReproduceOptions& options, const std::string& command,
+                            const Program& program, Monitor& monitor) {
+  DxtSpeedOptions study;
+  if (options.full) {
+    study.patches = {400, 800, 1600, 3300};
+    study.patches_over_bounces = 3300;
+    study.seconds = 4;
+  }
+  study.seed = options.run.seed;
+  return dxt_speed(options.folder, command, study, program.operators, program.solvers, monitor);
+}
+
+ReportSection run_dxt_pictures(const ReproduceOptions& options, const std::string& command,
+                               const Program& program, Monitor& monitor) {
+  DxtPicturesOptions pictures;
+  if (options.full) {
+    pictures.patches = 1600;
+    pictures.picture_size = 840;
+  }
+  pictures.seed = options.run.seed;
+  return dxt_pictures(options.folder, command, pictures, program.operators, monitor);
+}
+
+constexpr std::array<Experiment, 12> experiments = {{{"first-light", run_first_light},
+                                                     {"solvers", run_solvers},
+                                                     {"hard-cases", run_hard_case_tables},
+                                                     {"low-rank-pictures", run_low_rank_pictures},
+                                                     {"low-rank-errors", run_low_rank_errors},
+                                                     {"low-rank-sides", run_low_rank_sides},
+                                                     {"low-rank-tables", run_low_rank_tables},
+                                                     {"low-rank-patio", run_low_rank_patio},
+                                                     {"low-rank-motion", run_low_rank_motion},
+                                                     {"dxt-errors", run_dxt_errors},
+                                                     {"dxt-speed", run_dxt_speed},
+                                                     {"dxt-pictures", run_dxt_pictures}}};
 
 /// "first-light, solvers, ...".
 std::string known_tables() {
