@@ -28,6 +28,7 @@ constexpr NamedVariant improvement_variants[] = {
     {"+ blocks by cluster fit", improved_variant},
     {"  over 6", "dxt:range=6,fill=1,reorder=morton,fit=cluster"},
     {"  over 7", "dxt:range=7,fill=1,reorder=morton,fit=cluster"},
+    {"  over what they span, by 2-opt", "dxt:range=auto,fill=1,reorder=2opt,fit=cluster"},
     {"+ row sums restored", closed_colour_variant},
     {"BC4 for each channel", "dxt:codec=bc4,range=6,fill=1,reorder=morton"},
     {"BC4 once, for the kernel of all channels", kernel_variant},
