@@ -35,19 +35,13 @@ void KernelOperator::apply_impl(double alpha, const ConstFieldRef& X, double bet
 }
 
 void KernelOperator::apply_transposed(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
-  check_fields(describe(), size(), channels(), X, Y);
-  if (X.cols() == 0 || size() == 0) return;
-  if (alpha == 0) {
-    scale_field(beta, Y);
-    return;
-  }
-  const Stopwatch watch;
-  Field scaled(X.rows(), X.cols());
-  add_product(reflectance_.array().colwise() / root_area_.array(), X, 0, scaled);
-  Field product(X.rows(), X.cols());
-  multiply_kernel(scaled, product);
-  add_product((alpha * root_area_).replicate(1, channels()), product, beta, Y);
-  count_products(X.cols(), watch.seconds());
+  apply_checked(alpha, X, beta, Y, [&] {
+    Field scaled(X.rows(), X.cols());
+    add_product(reflectance_.array().colwise() / root_area_.array(), X, 0, scaled);
+    Field product(X.rows(), X.cols());
+    multiply_kernel(scaled, product);
+    add_product((alpha * root_area_).replicate(1, channels()), product, beta, Y);
+  });
 }
 
 }  // namespace radiosity

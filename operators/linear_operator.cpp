@@ -13,6 +13,11 @@ std::size_t ByteCount::total() const {
 }
 
 void LinearOperator::apply(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
+  apply_checked(alpha, X, beta, Y, [&] { apply_impl(alpha, X, beta, Y); });
+}
+
+void LinearOperator::apply_checked(double alpha, const ConstFieldRef& X, double beta, FieldRef Y,
+                                   const std::function<void()>& compute) const {
   check_fields(describe(), size(), channels(), X, Y);
   if (X.cols() == 0 || size() == 0) return;
   if (alpha == 0) {
@@ -20,7 +25,7 @@ void LinearOperator::apply(double alpha, const ConstFieldRef& X, double beta, Fi
     return;
   }
   const Stopwatch watch;
-  apply_impl(alpha, X, beta, Y);
+  compute();
   count_products(X.cols(), watch.seconds());
 }
 

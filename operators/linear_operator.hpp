@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -88,7 +89,12 @@ class LinearOperator {
   /// The same as apply with shapes checked; c > 0 and alpha != 0.
   virtual void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const = 0;
 
-  /// For products that do not go through apply (kernel products, transposed ones).
+  /// What apply does around apply_impl, for the transpose: checks and times, and leaves `compute` to give Y
+  /// for c > 0 and alpha != 0.
+  void apply_checked(double alpha, const ConstFieldRef& X, double beta, FieldRef Y,
+                     const std::function<void()>& compute) const;
+
+  /// For products that do not go through apply (kernel products).
   void count_products(Index columns, double seconds) const;
 
  private:

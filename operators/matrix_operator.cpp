@@ -1,7 +1,5 @@
 #include "operators/matrix_operator.hpp"
 
-#include "foundation/stopwatch.hpp"
-#include "operators/field_checks.hpp"
 #include "operators/reflectance.hpp"
 
 namespace radiosity {
@@ -18,19 +16,13 @@ void MatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, double bet
 }
 
 void MatrixOperator::apply_transposed(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
-  check_fields(describe(), size(), channels(), X, Y);
-  if (X.cols() == 0 || size() == 0) return;
-  if (alpha == 0) {
-    scale_field(beta, Y);
-    return;
-  }
-  const Stopwatch watch;
-  Field scaled(X.rows(), X.cols());
-  add_product(reflectance_.array(), X, 0, scaled);
-  Field product(X.rows(), X.cols());
-  multiply_matrix_transposed(scaled, product);
-  add_product(Eigen::ArrayXXd::Constant(size(), 1, alpha), product, beta, Y);
-  count_products(X.cols(), watch.seconds());
+  apply_checked(alpha, X, beta, Y, [&] {
+    Field scaled(X.rows(), X.cols());
+    add_product(reflectance_.array(), X, 0, scaled);
+    Field product(X.rows(), X.cols());
+    multiply_matrix_transposed(scaled, product);
+    add_product(Eigen::ArrayXXd::Constant(size(), 1, alpha), product, beta, Y);
+  });
 }
 
 }  // namespace radiosity
