@@ -16,7 +16,8 @@ import sys
 import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ["foundation", "kernels", "scene", "form_factors", "operators", "solvers", "render", "experiments"]
+FOLDERS = ["foundation", "kernels", "factorizations", "compression", "scene", "form_factors", "operators", "solvers",
+           "render", "experiments"]
 MARK = "end-of-cell-7f3a"
 NUMBERS = itertools.count()
 

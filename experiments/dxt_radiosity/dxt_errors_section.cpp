@@ -65,7 +65,7 @@ const PublishedErrors* published_column(const TexelOrderChoice& order) {
 
 std::string reordering_text(const TexelOrderChoice& order) {
   if (order.reorder == "morton") return "curves on the faces";
-  const std::string start = order.start == "random" ? "random" : "faces";
+  std::string start = order.start == "random" ? "random" : "faces";
   if (order.reorder == "none") return start;
   if (order.reorder == "rows") return start + ", by rows";
   if (order.reorder == "both") return start + ", by rows and columns";

@@ -52,6 +52,7 @@ SpeedRound race(const LitScene& scene, long bounces, const std::vector<BounceMet
   const Field light = scene.emission.leftCols(scene.mesh().channels());
   Field radiosity(light.rows(), light.cols());
   std::vector<Competitor> competitors;
+  competitors.reserve(methods.size());
   for (const BounceMethod& method : methods)
     competitors.push_back({.name = method.name, .columns = light.cols(), .bytes = method.bytes, .work = [&] {
                              method.answer(light, radiosity);

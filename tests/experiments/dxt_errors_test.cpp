@@ -4,6 +4,7 @@
 #include "foundation/error.hpp"
 #include "tests/temporary_folder.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -34,7 +35,8 @@ const DxtErrors& small_errors() {
 void expect_finite_numbers(const nlohmann::json& value, const std::string& path) {
   EXPECT_TRUE(!value.is_number() || std::isfinite(value.get<double>())) << path;
   if (value.is_structured())
-    for (const auto& [key, member] : value.items()) expect_finite_numbers(member, path + "/" + key);
+    for (const auto& [key, member] : value.items())
+      expect_finite_numbers(member, fmt::format("{}/{}", path, key));
 }
 
 TEST(Histogram, CountsEveryNumberOnce) {
