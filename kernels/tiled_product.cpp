@@ -16,7 +16,8 @@ namespace {
 /// How far ahead of the arithmetic the tiles are fetched into the second cache (the first is full of sums):
 /// processors do not fetch ahead across pages of 4 KiB by themselves. On one kind of machine 8 to 32 KiB gave
 /// the same; on another (Zen 4) 64 KiB was a quarter faster with float64 and three columns than 16 KiB and no
-/// slower elsewhere, and fetching into the first cache, or every second line only, was slower. Beyond the
+/// slower elsewhere; fetching into the first cache, or every second line only, was slower with three columns
+/// (with one of float32 or binary16 every second line was a little faster). Beyond the
 /// last tile it fetches nothing of use.
 constexpr std::ptrdiff_t bytes_ahead = 65536;
 
