@@ -27,9 +27,8 @@ std::string bounce_text(const BounceCount& bounces) {
   return bounces ? std::to_string(*bounces) : "inf";
 }
 
-Eigen::MatrixXd bounce_sum(const FormFactors& form_factors, const Eigen::VectorXd& reflectance,
+Eigen::MatrixXd bounce_sum(const Eigen::MatrixXd& F, const Eigen::VectorXd& reflectance,
                            const Eigen::VectorXd& colours, const BounceCount& bounces) {
-  const Eigen::MatrixXd F = form_factors.matrix();
   if (bounces == 1L) return F * colours.asDiagonal();
   const Eigen::MatrixXd reflected = F * reflectance.asDiagonal();
   Eigen::MatrixXd first = F * colours.asDiagonal();

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "form_factors/form_factors.hpp"
 #include "foundation/spec.hpp"
+
+#include <Eigen/Core>
 
 #include <optional>
 #include <string>
@@ -19,7 +20,7 @@ std::string bounce_text(const BounceCount& bounces);
 /// with `reflectance` and sender `colours` of the channel (operators/colour_operator.hpp), in double. Takes
 /// O(n^3) a bounce, or a factor more than one for all. Throws Error where the sum of all bounces does not
 /// exist.
-Eigen::MatrixXd bounce_sum(const FormFactors& form_factors, const Eigen::VectorXd& reflectance,
+Eigen::MatrixXd bounce_sum(const Eigen::MatrixXd& F, const Eigen::VectorXd& reflectance,
                            const Eigen::VectorXd& colours, const BounceCount& bounces);
 
 }  // namespace radiosity

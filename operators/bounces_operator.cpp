@@ -19,10 +19,11 @@ class BouncesOperator final : public ColourOperator {
  public:
   BouncesOperator(const FormFactors& form_factors, const BounceCount& bounces)
       : ColourOperator(form_factors, true), bounces_(bounces), reflectances_(reflectance()) {
+    const Eigen::MatrixXd F = form_factors.matrix();
     const Eigen::MatrixXd colours = sender_colours(reflectance());
     for (Index distinct = 0; distinct < reflectances_.count(); ++distinct) {
       const Index channel = reflectances_.representative(distinct);
-      sums_.emplace_back(bounce_sum(form_factors, reflectance().col(channel), colours.col(channel), bounces));
+      sums_.emplace_back(bounce_sum(F, reflectance().col(channel), colours.col(channel), bounces));
     }
   }
 

@@ -88,9 +88,10 @@ std::vector<ColourMatrix> colour_matrices(const FormFactors& form_factors, const
                                           const BounceCount& bounces) {
   std::vector<ColourMatrix> matrices;
   const Eigen::MatrixXd& reflectance = form_factors.mesh->reflectance;
+  const Eigen::MatrixXd F = form_factors.matrix();
   for (Index channel = 0; channel < reflectance.cols(); ++channel)
     matrices.emplace_back(
-        bounce_sum(form_factors, reflectance.col(channel), colours.col(channel), bounces).cast<float>());
+        bounce_sum(F, reflectance.col(channel), colours.col(channel), bounces).cast<float>());
   return matrices;
 }
 
