@@ -17,7 +17,9 @@ class ReadStream {
   explicit ReadStream(std::size_t bytes);
 
   std::size_t quarter_bytes() const { return chunks / quarters * chunk_words_ * sizeof(double); }
-  /// Sums the next quarter with the threads in force. Throws Error where the memory is broken.
+  /// Sums the next quarter with the threads in force, in one round of quarters asking for what comes next, in
+  /// the other leaving that to the processor: which is faster depends on the machine, and its bandwidth is
+  /// the better of both. Throws Error where the memory is broken.
   void read_quarter();
 
  private:
@@ -25,12 +27,13 @@ class ReadStream {
   static constexpr std::size_t lanes = 32;
 
   double* begin(std::size_t chunk) const { return words_.data() + chunk * chunk_words_; }
+  template <bool fetch_ahead>
   double sum(const double* words) const;
 
   std::size_t chunk_words_;
   AlignedBuffer<double> words_;
   std::vector<double> sums_;
-  std::size_t next_ = 0;
+  std::size_t readings_ = 0;
 };
 
 }  // namespace radiosity

@@ -37,6 +37,7 @@ struct TileTask {
   int rows = 64;
   const char* prefetch =
       nullptr;  ///< what will be read soon, as much as this task reads; null: do not fetch ahead
+  bool prefetch_every_line = true;  ///< else one line a row, where entries follow each other in memory
 
   // y_rows += entries x_columns: tasks with the same rows form runs that add up in `row_lanes`.
   const Number* x_columns = nullptr;

@@ -60,12 +60,11 @@ struct Lanes<float> {
   }
 };
 
-// 16 registers: vectors x columns sums down, rows x columns sums across and as many broadcasts, entries, one
-// of X.
+// 16 registers: vectors x columns sums down, one sum across and one broadcast a column, the entries.
 template <typename Number, int columns>
-constexpr int strip_vectors = columns == 1 ? 4 : 2;
-template <typename Number, int columns, bool to_columns>
-constexpr int strip_rows = columns <= 2 ? 2 : 1;
+constexpr int strip_vectors = columns == 1   ? 8
+                              : columns == 2 ? 4
+                                             : 2;
 
 }  // namespace
 }  // namespace radiosity

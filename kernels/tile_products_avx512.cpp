@@ -81,12 +81,9 @@ struct Lanes<float> {
   }
 };
 
-// 32 registers: vectors x columns sums down, rows x columns sums across and as many broadcasts, entries, one
-// of X.
+// 32 registers: vectors x columns sums down, one sum across and one broadcast a column, the entries.
 template <typename Number, int columns>
-constexpr int strip_vectors = 4;
-template <typename Number, int columns, bool to_columns>
-constexpr int strip_rows = columns <= 2 || !to_columns ? 4 : 2;
+constexpr int strip_vectors = 64 / Lanes<Number>::width;
 
 }  // namespace
 }  // namespace radiosity

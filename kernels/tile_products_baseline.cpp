@@ -49,8 +49,6 @@ struct Lanes {
 
 template <typename Number, int columns>
 constexpr int strip_vectors = columns == 1 ? 4 : 2;
-template <typename Number, int columns, bool to_columns>
-constexpr int strip_rows = columns <= 2 ? 2 : 1;
 
 }  // namespace
 }  // namespace radiosity

@@ -13,13 +13,14 @@
 namespace radiosity {
 namespace {
 
-/// How far ahead of the arithmetic the tiles are fetched into the second cache (the first is full of sums):
-/// processors do not fetch ahead across pages of 4 KiB by themselves. On one kind of machine 8 to 32 KiB gave
-/// the same; on another (Zen 4) 64 KiB was a quarter faster with float64 and three columns than 16 KiB and no
-/// slower elsewhere; fetching into the first cache, or every second line only, was slower with three columns
-/// (with one of float32 or binary16 every second line was a little faster). Beyond the
-/// last tile it fetches nothing of use.
-constexpr std::ptrdiff_t bytes_ahead = 65536;
+/// How far ahead of the arithmetic tiles and records are fetched into the second cache (the first is full of
+/// sums). Processors fetch ahead by themselves as long as they compute little for each line that they read,
+/// but not across pages: with one or two columns one line a row is asked for, a page ahead. Three columns
+/// keep them so busy that they fall behind: every line is asked for, at a distance at which more made no
+/// difference. On Zen 4 either case is up to 1.4 times slower with the other's rule. Beyond the last tile
+/// nothing of use is fetched.
+constexpr std::ptrdiff_t page_bytes = 4096;
+constexpr std::ptrdiff_t tile_bytes_ahead = 65536;
 
 /// Cuts the tile rows into chunks of about equal numbers of tiles; chunk k is the tile rows result[k] ...
 /// result[k + 1] - 1. Depends on the matrix only, never on threads: it decides the order of the sums.
@@ -45,8 +46,10 @@ struct StoredSource {
 
   static bool whole_diagonal() { return true; }  ///< whether a tile on the diagonal keeps both halves
   const Entry* read(Index tile, Entry*) const { return K.tile_data(tile); }
-  static const char* prefetch(const Entry* entries) {
-    return reinterpret_cast<const char*>(entries) + bytes_ahead;
+  static void fetch_ahead(TileTask<Entry>& task, Index columns) {
+    task.prefetch_every_line = columns >= 3;
+    task.prefetch =
+        reinterpret_cast<const char*>(task.entries) + (columns >= 3 ? tile_bytes_ahead : page_bytes);
   }
 };
 
@@ -63,14 +66,14 @@ struct QuantizedSource {
     if (decoder == nullptr)
       std::fill(panel, panel + panel_entries, 0.0F);
     else
-      decoder(K.record(tile), K.record(tile) + bytes_ahead, K.format().curve, panel);
+      decoder(K.record(tile), K.record(tile) + tile_bytes_ahead, K.format().curve, panel);
     const std::uint16_t* position = K.exact_position().data();
     const float* value = K.exact_value().data();
     const std::size_t end = K.exact_begin(tile + 1);
     for (std::size_t k = K.exact_begin(tile); k < end; ++k) panel[position[k]] = value[k];
     return panel;
   }
-  static const char* prefetch(const Entry*) { return nullptr; }
+  static void fetch_ahead(TileTask<Entry>&, Index) {}
 };
 
 enum class Direction { forward, transposed };  ///< K X or K' X: the same for a symmetric K
@@ -118,7 +121,7 @@ class TileSweep {
       const Index columns = std::min<Index>(products_.most_columns, X_.columns() - c);
       TileTask<Entry> task;
       task.entries = entries;
-      if (c == 0) task.prefetch = Source::prefetch(entries);
+      if (c == 0) Source::fetch_ahead(task, columns);
       task.row_lanes = lanes + c / products_.most_columns * row_lanes_size<Entry>;
       task.first = first;
       task.last = last;
