@@ -46,19 +46,6 @@ struct Bc4Block {
   bool operator==(const Bc4Block&) const = default;
 };
 
-/// What the two numbers are multiplied with for each index, and what is added: [0] for first > second, [1]
-/// else.
-struct Bc4Weights {
-  float first[8];
-  float second[8];
-  float added[8];
-};
-constexpr Bc4Weights bc4_weights[2] = {
-    {{1, 0, 6 / 7.F, 5 / 7.F, 4 / 7.F, 3 / 7.F, 2 / 7.F, 1 / 7.F},
-     {0, 1, 1 / 7.F, 2 / 7.F, 3 / 7.F, 4 / 7.F, 5 / 7.F, 6 / 7.F},
-     {}},
-    {{1, 0, 0.8F, 0.6F, 0.4F, 0.2F, 0, 0}, {0, 1, 0.2F, 0.4F, 0.6F, 0.8F, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 255}}};
-
 static_assert(sizeof(Bc1Block) == 8 && sizeof(Bc4Block) == 8);
 
 /// The four colours of a block in [0, 255], by channel; the plain reference.

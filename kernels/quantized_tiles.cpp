@@ -101,10 +101,7 @@ float QuantizedTiles::stored_number(Index tile, Index r, Index c) const {
     case EntryCode::bc4: {
       const auto block = read(Bc4Block{}, (r / 4 * (tile_size / 4) + c / 4) * 8);
       const auto index = static_cast<std::size_t>(bc4_index(block, static_cast<int>(r % 4 * 4 + c % 4)));
-      const Bc4Weights& weights = bc4_weights[block.first > block.second ? 0 : 1];
-      return format_.curve.number((static_cast<float>(block.first) * weights.first[index] +
-                                   static_cast<float>(block.second) * weights.second[index]) +
-                                  weights.added[index]);
+      return bc4_numbers(block, format_.curve)[index];
     }
     case EntryCode::half:
       return to_float(read(Half{}, (r * tile_size + c) * 2));

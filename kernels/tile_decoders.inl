@@ -6,7 +6,8 @@
 //   widen(halves, steps, count): binary16 to float, count a multiple of 64,
 //   Steps<bits>: what a block's codes multiply with, made from its step by Codes::steps<bits>(step), and
 //   decode<bits, shift>(words, steps): code times step of the codes `shift` bits up, and
-//   decode_bc4<logarithmic>(blocks, curve, entries): four BC4 blocks side by side.
+//   get_palettes<logarithmic>(blocks, curve, palettes): those of sixteen BC4 blocks side by side, a
+//   Bc4Palettes, and store_bc4(blocks, palettes, entries): their texels.
 
 namespace radiosity {
 namespace {
@@ -127,17 +128,23 @@ void decode_nibbles(const std::byte* record, const std::byte* prefetch, const Ti
   }
 }
 
+/// The palettes of a row of blocks are made while the texels of the one before it are stored: by itself each
+/// is a chain of operations that wait for each other.
 template <bool logarithmic>
 void decode_blocks(const std::byte* record, const std::byte* prefetch, const TileCurve& curve,
                    float* entries) {
+  constexpr int rows = tile_width / 4;
   const auto* blocks = reinterpret_cast<const std::uint64_t*>(record);
   const TileCurve own = curve;
-  for (int row = 0; row < tile_width / 4; ++row) {
-    fetch_line(prefetch, row * 128);
-    fetch_line(prefetch, row * 128 + 64);
-    for (int b = 0; b < tile_width / 4; b += 4)
-      Codes::template decode_bc4<logarithmic>(blocks + row * 16 + b, own,
-                                              entries + row * 4 * tile_width + 4 * b);
+  typename Codes::Bc4Palettes even;
+  typename Codes::Bc4Palettes odd;
+  Codes::template get_palettes<logarithmic>(blocks, own, even);
+  for (int row = 0; row < rows; row += 2, blocks += 2 * rows, entries += 8 * tile_width) {
+    for (int line = 0; line < 4; ++line) fetch_line(prefetch, row * 128 + line * 64);
+    Codes::template get_palettes<logarithmic>(blocks + rows, own, odd);
+    Codes::store_bc4(blocks, even, entries);
+    if (row + 2 < rows) Codes::template get_palettes<logarithmic>(blocks + 2 * rows, own, even);
+    Codes::store_bc4(blocks + rows, odd, entries + 4 * tile_width);
   }
 }
 

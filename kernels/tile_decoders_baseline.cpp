@@ -46,19 +46,44 @@ struct Codes {
     return __builtin_convertvector(shifted & ((1 << bits) - 1), Vector) * steps;
   }
 
-  /// Four blocks of a row.
+  using Bc4Palettes = float[16][8];
+
   template <bool logarithmic>
-  static void decode_bc4(const std::uint64_t* blocks, const TileCurve& curve, float* entries) {
-    for (int b = 0; b < 4; ++b) {
-      const auto first = static_cast<float>(blocks[b] & 255);
-      const auto second = static_cast<float>(blocks[b] >> 8 & 255);
-      const Bc4Weights& weights = bc4_weights[first > second ? 0 : 1];
-      float palette[8];
-      for (int k = 0; k < 8; ++k)
-        palette[k] = on_tile_curve<logarithmic>(
-            (first * weights.first[k] + second * weights.second[k]) + weights.added[k], curve);
+  static void get_palettes(const std::uint64_t* blocks, const TileCurve& curve, Bc4Palettes& palettes) {
+    for (int b = 0; b < 16; ++b) bc4_palette<logarithmic>(blocks[b], curve, palettes[b]);
+  }
+
+  static void store_bc4(const std::uint64_t* blocks, const Bc4Palettes& palettes, float* entries) {
+    for (int b = 0; b < 16; ++b)
       for (int texel = 0; texel < 16; ++texel)
-        entries[texel / 4 * 64 + 4 * b + texel % 4] = palette[blocks[b] >> (16 + 3 * texel) & 7];
+        entries[texel / 4 * 64 + 4 * b + texel % 4] = palettes[b][blocks[b] >> (16 + 3 * texel) & 7];
+  }
+
+ private:
+  /// As bc4_numbers has it.
+  template <bool logarithmic>
+  static void bc4_palette(std::uint64_t block, const TileCurve& curve, float (&palette)[8]) {
+    const auto first = static_cast<float>(block & 255);
+    const auto second = static_cast<float>(block >> 8 & 255);
+    const bool eight = first > second;
+    const float part = eight ? bc4_seventh : bc4_fifth;
+    const int last = eight ? 7 : 5;
+    palette[6] = 0;
+    palette[7] = on_tile_curve<logarithmic>(255, curve);
+    palette[0] = on_tile_curve<logarithmic>(first, curve);
+    palette[1] = on_tile_curve<logarithmic>(second, curve);
+    if constexpr (logarithmic) {
+      const std::int32_t mask = first + second > 0 ? -1 : 0;
+      const auto A = static_cast<std::int32_t>(first * curve.slope + curve.base);
+      const auto B = static_cast<std::int32_t>(second * curve.slope + curve.base);
+      const auto step = static_cast<std::int32_t>(static_cast<float>(B - A) * part);
+      for (int k = 1; k < last; ++k) {
+        const std::int32_t word = (A + k * step) & mask;
+        std::memcpy(palette + k + 1, &word, sizeof word);
+      }
+    } else {
+      const float step = (palette[1] - palette[0]) * part;
+      for (int k = 1; k < last; ++k) palette[k + 1] = palette[0] + static_cast<float>(k) * step;
     }
   }
 };

@@ -30,6 +30,43 @@ float TileCurve::number(float code) const {
   return code > 0 ? std::bit_cast<float>(static_cast<std::int32_t>(scaled + base)) : 0.0F;
 }
 
+namespace {
+
+std::array<float, 8> linear_bc4_numbers(const Bc4Block& block, float slope) {
+  const bool eight = block.first > block.second;
+  const float A = static_cast<float>(block.first) * slope;
+  const float B = static_cast<float>(block.second) * slope;
+  const float step = (B - A) * (eight ? bc4_seventh : bc4_fifth);
+  std::array<float, 8> numbers = {A, B};
+  for (std::size_t k = 1; k < (eight ? 7U : 5U); ++k) numbers[k + 1] = A + static_cast<float>(k) * step;
+  if (!eight) numbers[7] = static_cast<float>(top_of_codes) * slope;
+  return numbers;
+}
+
+std::array<float, 8> logarithmic_bc4_numbers(const Bc4Block& block, const TileCurve& curve) {
+  const bool eight = block.first > block.second;
+  const auto bits = [&](int code) {
+    return static_cast<std::int32_t>(static_cast<float>(code) * curve.slope + curve.base);
+  };
+  const std::int32_t A = bits(block.first);
+  const std::int32_t B = bits(block.second);
+  const auto step = static_cast<std::int32_t>(static_cast<float>(B - A) * (eight ? bc4_seventh : bc4_fifth));
+  std::array<float, 8> numbers{};
+  if (block.first > 0) numbers[0] = std::bit_cast<float>(A);
+  if (block.second > 0) numbers[1] = std::bit_cast<float>(B);
+  if (block.first > 0 || block.second > 0)
+    for (std::int32_t k = 1; k < (eight ? 7 : 5); ++k)
+      numbers[static_cast<std::size_t>(k) + 1] = std::bit_cast<float>(A + k * step);
+  if (!eight) numbers[7] = std::bit_cast<float>(bits(static_cast<int>(top_of_codes)));
+  return numbers;
+}
+
+}  // namespace
+
+std::array<float, 8> bc4_numbers(const Bc4Block& block, const TileCurve& curve) {
+  return curve.logarithmic ? logarithmic_bc4_numbers(block, curve) : linear_bc4_numbers(block, curve.slope);
+}
+
 double TileCurve::code(double part) const {
   if (!(part > 0)) return 0;
   const double code =

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "kernels/block_formats.hpp"
+
+#include <array>
 #include <cstdint>
 
 namespace radiosity {
@@ -23,6 +26,17 @@ struct TileCurve {
   /// The code, not rounded, whose number is `part` of the largest, in [0, 255]; 0 for 0 and what lies below.
   double code(double part) const;
 };
+
+constexpr float bc4_seventh = 1 / 7.0F;
+constexpr float bc4_fifth = 1 / 5.0F;
+
+/// What the eight indices of a BC4 block of codes stand for on a curve: the plain reference. With A and B the
+/// numbers of the block's two codes, the others follow in equal steps, (B - A) / 7 or / 5, computed
+///   linear       in float without fused operations, as A + k step, step = (B - A) times float(1/7 or 1/5);
+///   logarithmic  in the whole numbers that the bits of A and B are, with the step cut to a whole number and
+///                its product taken in float: what interpolated codes stand for, but for the last bits. A
+///                code of 0 is the number 0 where it is not between two codes, or between two that are 0.
+std::array<float, 8> bc4_numbers(const Bc4Block& block, const TileCurve& curve);
 
 /// How the entries of a tile are stored.
 enum class EntryCode {
