@@ -51,7 +51,8 @@ class TextureProduct {
         Y_(Y),
         channels_(M.channels()),
         groups_(M.block_columns() / ColourTexture::blocks_together),
-        products_(texture_products(instructions)) {}
+        products_(texture_products(instructions)),
+        linear_(!M.curve().logarithmic && products_.linear_to_rows[0] != nullptr) {}
 
   void multiply_light(Index first_column) {
     const ScaledLight light(X_, first_column, channels_);
@@ -60,7 +61,8 @@ class TextureProduct {
       float* to = x.data() + static_cast<Index>(group) * channels_ * texture_group;
       for (Index c = 0; c < channels_; ++c)
         for (int place = 0; place < texture_group; ++place) {
-          const Index column = static_cast<Index>(group) * texture_group + texture_group_column(place);
+          const Index column = static_cast<Index>(group) * texture_group +
+                               (linear_ ? linear_group_column(place) : texture_group_column(place));
           to[c * texture_group + place] =
               column < M_.columns() ? light(X_(column, first_column + c), c) : 0.0F;
         }
@@ -115,7 +117,7 @@ class TextureProduct {
       TextureTask task = task_of(row, group, std::min<Index>(group + groups_of_a_run, groups_));
       task.x = x + group * channels_ * texture_group;
       task.y_rows = sums;
-      products_.to_rows[channels_ == 3](task);
+      (linear_ ? products_.linear_to_rows : products_.to_rows)[channels_ == 3](task);
     }
     const Index first = row * ColourTexture::block_side;
     for (Index c = 0; c < channels_; ++c)
@@ -147,6 +149,7 @@ class TextureProduct {
   Index channels_;
   Index groups_;
   TextureProducts products_;
+  bool linear_;  ///< whether linear_to_rows multiplies
 };
 
 void require_whole_lights(const ColourTexture& M, const ConstFieldRef& X) {

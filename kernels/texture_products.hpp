@@ -22,6 +22,12 @@ constexpr int texture_group_column(int place) {
   return place % 16 / 4 * 16 + place / 16 * 4 + place % 4;
 }
 
+/// The order that linear_to_rows wants: number 16 c + b of a group of 64 is column 4 b + c, column c of block
+/// b.
+constexpr int linear_group_column(int place) {
+  return place % 16 * 4 + place / 16;
+}
+
 /// A run of groups of a row of blocks with the numbers that they are multiplied with.
 struct TextureTask {
   const std::uint64_t* blocks = nullptr;  ///< 16 a group
@@ -44,6 +50,10 @@ struct TextureProducts {
   using Function = void (*)(const TextureTask&);
   Function to_rows[2] = {};
   Function to_columns[2] = {};
+  /// to_rows of linear textures with x in another order: weights of indices are summed before they meet the
+  /// colours, so that texels count as theirs to rounding, not to the bit, and 0 as 0. Null where there is
+  /// nothing faster.
+  Function linear_to_rows[2] = {};
 };
 
 TextureProducts texture_products(InstructionSet instructions);

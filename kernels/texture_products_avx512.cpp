@@ -107,9 +107,105 @@ struct Texels {
 #include "kernels/texture_products.inl"
 
 namespace radiosity {
+namespace {
+
+/// The colours of sixteen blocks in one channel, as whole numbers: low + step w, where w is 0, 1, 1/3 or 2/3
+/// by the index.
+struct LinearBlocks {
+  __m512 low;
+  __m512 step;
+  __m512i indices;
+
+  template <int colour>
+  [[gnu::always_inline]] static inline LinearBlocks of(const std::uint64_t* blocks) {
+    constexpr int shift = colour == 0 ? 11 : colour == 1 ? 5 : 0;
+    const __m512i endpoints = Texels::halves<false>(blocks);
+    const __m512i largest = _mm512_set1_epi32(linear_largest<colour>);
+    const __m512i first = _mm512_and_si512(_mm512_srli_epi32(endpoints, shift), largest);
+    const __m512i second = _mm512_and_si512(_mm512_srli_epi32(endpoints, shift + 16), largest);
+    // Steps lead up from the lower of the two colours, so that nothing is subtracted and a texel of 0 adds
+    // exactly 0: where the first is above, indices 0 and 1, and 2 and 3, change places.
+    const __mmask16 down = _mm512_cmpgt_epi32_mask(first, second);
+    const __m512i indices = Texels::halves<true>(blocks);
+    return {_mm512_cvtepi32_ps(_mm512_min_epi32(first, second)),
+            _mm512_cvtepi32_ps(_mm512_abs_epi32(_mm512_sub_epi32(second, first))),
+            _mm512_mask_xor_epi32(indices, down, indices, _mm512_set1_epi32(0x55555555))};
+  }
+
+  template <int colour>
+  static constexpr int linear_largest = colour == 1 ? 63 : 31;
+};
+
+/// Sums of w x over a row of texels, each block in its lane. A permutation reads four bits, two indices, of
+/// which one table reads the lower and another the upper, so that indices are shifted once for two texels.
+template <int row>
+[[gnu::always_inline]] inline __m512 weighted_sum(__m512i indices, const __m512 (&x)[4]) {
+  constexpr float third = texture_third;
+  constexpr float thirds = 1 - third;
+  const __m512 lower =
+      _mm512_setr_ps(0, 1, third, thirds, 0, 1, third, thirds, 0, 1, third, thirds, 0, 1, third, thirds);
+  const __m512 upper =
+      _mm512_setr_ps(0, 0, 0, 0, 1, 1, 1, 1, third, third, third, third, thirds, thirds, thirds, thirds);
+  const __m512i left = row == 0 ? indices : _mm512_srli_epi32(indices, 8 * row);
+  const __m512i right = _mm512_srli_epi32(indices, 8 * row + 4);
+  __m512 sum = _mm512_mul_ps(_mm512_permutexvar_ps(left, lower), x[0]);
+  sum = _mm512_fmadd_ps(_mm512_permutexvar_ps(left, upper), x[1], sum);
+  sum = _mm512_fmadd_ps(_mm512_permutexvar_ps(right, lower), x[2], sum);
+  return _mm512_fmadd_ps(_mm512_permutexvar_ps(right, upper), x[3], sum);
+}
+
+/// The sum of the lanes of each.
+[[gnu::always_inline]] inline __m128 four_sums(const __m512 (&vectors)[4]) {
+  const __m512 first =
+      _mm512_add_ps(_mm512_unpacklo_ps(vectors[0], vectors[1]), _mm512_unpackhi_ps(vectors[0], vectors[1]));
+  const __m512 last =
+      _mm512_add_ps(_mm512_unpacklo_ps(vectors[2], vectors[3]), _mm512_unpackhi_ps(vectors[2], vectors[3]));
+  const __m512 quarters =
+      _mm512_add_ps(_mm512_shuffle_ps(first, last, 0x44), _mm512_shuffle_ps(first, last, 0xee));
+  const __m256 halves = _mm256_add_ps(_mm512_castps512_ps256(quarters), _mm512_extractf32x8_ps(quarters, 1));
+  return _mm_add_ps(_mm256_castps256_ps128(halves), _mm256_extractf128_ps(halves, 1));
+}
+
+template <int colour>
+void multiply_linear_channel(const TextureTask& task, const float* x_of_groups, int stride, double* y) {
+  __m512 low = _mm512_setzero_ps();
+  __m512 sums[4] = {low, low, low, low};
+  for (int group = 0; group < task.groups; ++group) {
+    const LinearBlocks blocks = LinearBlocks::of<colour>(task.blocks + 16 * group);
+    fetch_blocks_ahead(task.blocks + 16 * group);
+    const float* from = x_of_groups + stride * group;
+    const __m512 x[4] = {_mm512_load_ps(from), _mm512_load_ps(from + 16), _mm512_load_ps(from + 32),
+                         _mm512_load_ps(from + 48)};
+    low =
+        _mm512_fmadd_ps(blocks.low, _mm512_add_ps(_mm512_add_ps(x[0], x[1]), _mm512_add_ps(x[2], x[3])), low);
+    sums[0] = _mm512_fmadd_ps(blocks.step, weighted_sum<0>(blocks.indices, x), sums[0]);
+    sums[1] = _mm512_fmadd_ps(blocks.step, weighted_sum<1>(blocks.indices, x), sums[1]);
+    sums[2] = _mm512_fmadd_ps(blocks.step, weighted_sum<2>(blocks.indices, x), sums[2]);
+    sums[3] = _mm512_fmadd_ps(blocks.step, weighted_sum<3>(blocks.indices, x), sums[3]);
+  }
+  for (__m512& sum : sums) sum = _mm512_add_ps(low, sum);
+  const __m256d parts = _mm256_cvtps_pd(four_sums(sums));
+  const __m256d largest = _mm256_set1_pd(LinearBlocks::linear_largest<colour>);
+  _mm256_storeu_pd(y, _mm256_add_pd(_mm256_loadu_pd(y), _mm256_div_pd(parts, largest)));
+}
+
+void multiply_linear_channel_alone(const TextureTask& task) {
+  multiply_linear_channel<1>(task, task.x, texture_group, task.y_rows);
+}
+
+void multiply_linear_channels(const TextureTask& task) {
+  constexpr int stride = 3 * texture_group;
+  multiply_linear_channel<0>(task, task.x, stride, task.y_rows);
+  multiply_linear_channel<1>(task, task.x + texture_group, stride, task.y_rows + 4);
+  multiply_linear_channel<2>(task, task.x + 2 * texture_group, stride, task.y_rows + 8);
+}
+
+}  // namespace
 
 void get_avx512_texture_products(TextureProducts& products) {
   get_texture_products(products);
+  products.linear_to_rows[0] = multiply_linear_channel_alone;
+  products.linear_to_rows[1] = multiply_linear_channels;
 }
 
 }  // namespace radiosity

@@ -2,6 +2,7 @@
 #include "foundation/parallel.hpp"
 #include "kernels/colour_texture.hpp"
 #include "kernels/products.hpp"
+#include "kernels/texture_products.hpp"
 #include "product_reference.hpp"
 
 #include <algorithm>
@@ -90,7 +91,13 @@ TEST(TextureProduct, DecodesTheBitsOfThePlainPaletteWithEveryInstructionSet) {
         Eigen::MatrixXd W(n, X.cols());
         multiply_transposed(M, X, W, set);
         for (int c = 0; c < channels; ++c) {
-          EXPECT_EQ(columns_of(Y, c, channels), materialize(M, c)) << name(set);
+          // Linear textures may be multiplied without making texels: to rounding, and zeros as zeros.
+          const bool decodes =
+              curve.logarithmic || texture_products(set).linear_to_rows[channels == 3] == nullptr;
+          const Eigen::ArrayXXd matrix = materialize(M, c).array();
+          EXPECT_TRUE(
+              ((columns_of(Y, c, channels).array() - matrix).abs() <= (decodes ? 0 : 0x1p-22) * matrix).all())
+              << name(set);
           EXPECT_EQ(columns_of(W, c, channels), materialize(M, c).transpose()) << name(set);
         }
       }
