@@ -18,10 +18,6 @@ constexpr double kLeastSide = 1e-6;
 constexpr double kInvertedSheet = 0.1;
 constexpr double kClosedGap = 1e-3;
 
-std::uint64_t quad_key(const VoxelFragment& fragment) {
-  return 6 * fragment.cell + static_cast<std::uint64_t>(fragment.direction);
-}
-
 /// Sums over the fragments of one quad.
 struct VoxelSums {
   std::uint64_t cell = 0;
