@@ -76,8 +76,10 @@ SimplificationError measure_simplification(const FormFactors& form_factors, cons
   const FormFactors simplified_factors = compute_form_factors(simplified.mesh, options, monitor);
   const FormFactorQuality& quality = simplified_factors.quality;
   result.form_factor_seconds = quality.seconds;
-  if (quality.probe_rays > 0)
+  if (quality.probe_rays > 0) {
     result.leaked = static_cast<double>(quality.leaks) / static_cast<double>(quality.probe_rays);
+    result.on_backs = static_cast<double>(quality.back_hits) / static_cast<double>(quality.probe_rays);
+  }
 
   const Field quad_emission = emission_of_quads(simplified, original, emission);
   const Stopwatch solving;

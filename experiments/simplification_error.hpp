@@ -23,6 +23,7 @@ struct SimplificationError {
   /// pulled back. So much is lost by few patches; what is above is the fault of their shape.
   IndirectErrors averaged;
   double leaked = 0;  ///< part of the probe rays that left an enclosure, before a closure; 0 where it is none
+  double on_backs = 0;  ///< part of the probe rays that ended on the back of a patch
   double simplify_seconds = 0;
   double form_factor_seconds = 0;  ///< of the simplified scene
   double solve_seconds = 0;        ///< a light

@@ -54,6 +54,7 @@ Json voxels_json(const SimplificationError& error) {
           {"averaged_mean", error.averaged.mean},
           {"averaged_max", error.averaged.max},
           {"leaked", error.leaked},
+          {"on_backs", error.on_backs},
           {"factor_bytes", error.factor_bytes()},
           {"simplify_seconds", error.simplify_seconds},
           {"form_factor_seconds", error.form_factor_seconds},

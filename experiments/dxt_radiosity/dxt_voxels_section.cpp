@@ -20,8 +20,8 @@ ReportTable voxels_table(const DxtVoxels& voxels, const DxtVoxelsOptions& option
                         options.lights.total(), options.tolerance),
                     .command = command,
                     .columns = {"scene", "original patches", "N", "patches", "error, mean", "error, maximum",
-                                "averaged only, mean", "rays leaked, %", "F, MB", "simplify, ms",
-                                "form factors, ms", "solve, ms", "transfer, ms"},
+                                "averaged only, mean", "rays leaked, %", "on backs, %", "F, MB",
+                                "simplify, ms", "form factors, ms", "solve, ms", "transfer, ms"},
                     .rows = {}};
   for (const VoxelErrors& scene : voxels.scenes)
     for (const SimplificationError& error : scene.over_voxels)
@@ -30,6 +30,7 @@ ReportTable voxels_table(const DxtVoxels& voxels, const DxtVoxelsOptions& option
                             fmt::format("{:.3f}", error.indirect.max),
                             fmt::format("{:.3f}", error.averaged.mean),
                             scene.enclosure ? fmt::format("{:.1f}", 100 * error.leaked) : "–",
+                            fmt::format("{:.1f}", 100 * error.on_backs),
                             fmt::format("{:.3f}", 1e-6 * static_cast<double>(error.factor_bytes())),
                             fmt::format("{:.1f}", 1e3 * error.simplify_seconds),
                             fmt::format("{:.0f}", 1e3 * error.form_factor_seconds),
@@ -73,9 +74,10 @@ double times_above_averaging(const VoxelErrors& errors) {
 }
 
 std::string leak_text(const VoxelErrors& errors) {
-  if (!errors.enclosure) return "";
-  return fmt::format(", and {:.1f} % of its rays leak out of the {} voxels (the original leaks none)",
-                     100 * errors.over_voxels.back().leaked, errors.over_voxels.back().patches);
+  const SimplificationError& finest = errors.over_voxels.back();
+  const std::string backs =
+      fmt::format("{:.1f} % of the rays of {} voxels end on backs", 100 * finest.on_backs, finest.patches);
+  return errors.enclosure ? fmt::format("{} and {:.1f} % leak out", backs, 100 * finest.leaked) : backs;
 }
 
 }  // namespace
@@ -98,15 +100,15 @@ std::string voxel_fault_finding(const DxtVoxels& voxels) {
   std::string faults;
   for (const VoxelErrors& scene : voxels.scenes)
     if (times_above_averaging(scene) > at_fault)
-      faults += fmt::format("{}{} ({:.1f} times{})", faults.empty() ? "" : "; ", scene.scene,
+      faults += fmt::format("{}{} ({:.1f} times; {})", faults.empty() ? "" : "; ", scene.scene,
                             times_above_averaging(scene), leak_text(scene));
   if (faults.empty())
     return fmt::format("No scene ends more than {} times above what averaging costs.", at_fault);
   return fmt::format(
       "The simplification itself, not the number of patches, is at fault where the error ends more than {} "
-      "times above that of averaging: {}. A slope becomes a stair of treads without risers, which block each "
-      "other and let light through between them; the symmetric closure brings the energy back, not to where "
-      "it belongs.",
+      "times above that of averaging: {}. Where a cell cuts corners of a curved surface, quads that are "
+      "rectangles seen along an axis do not meet: some light passes between them, which a symmetric closure "
+      "brings back in an enclosure, and some ends on the backs of others and is lost.",
       at_fault, faults);
 }
 

@@ -50,8 +50,11 @@ TEST(DxtVoxels, BlameTheShapeWhereTheErrorStaysAboveThatOfAveraging) {
   error.indirect = {.mean = 0.3, .max = 0.4};
   error.averaged = {.mean = 0.01, .max = 0.02};
   error.leaked = 0.25;
+  error.on_backs = 0.125;
   voxels.scenes.front().over_voxels = {error};
-  EXPECT_NE(voxel_fault_finding(voxels).find("sloped (30.0 times, and 25.0 % of its rays"), std::string::npos)
+  EXPECT_NE(voxel_fault_finding(voxels).find(
+                "sloped (30.0 times; 12.5 % of the rays of 50 voxels end on backs and 25.0 % leak out)"),
+            std::string::npos)
       << voxel_fault_finding(voxels);
   voxels.scenes.front().over_voxels.front().indirect.mean = 0.02;
   EXPECT_EQ(voxel_fault_finding(voxels).find("sloped"), std::string::npos);
