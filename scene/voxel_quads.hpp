@@ -28,7 +28,9 @@ namespace radiosity {
 /// The two directions of one axis may swap places by averaging, so that what was a wall seen from both sides
 /// would be a slit seen from within: such pairs (fragments of both lie among each other, the quads face each
 /// other within a tenth of a cell), and slits below a thousandth of a cell, become a level sheet at
-/// their common offset.
+/// their common offset. (On coarse grids that costs something: without the first kind the error of indirect
+/// light was 0.51 in place of 0.55 with 50 voxels in a Cornell box, 0.34 in place of 0.36 with 250 in
+/// clutter, and the same from 100 and 800 voxels on.)
 struct VoxelQuad {
   Polygon corners;                 ///< 4, counter-clockwise seen from the front
   Eigen::RowVectorXd reflectance;  ///< 1 x channels, area-weighted mean
