@@ -166,6 +166,7 @@ ReportSection run_dxt_speed(const ReproduceOptions& options, const std::string& 
   DxtSpeedOptions study;
   if (options.full) {
     study.patches = {400, 800, 1600, 3300};
+    study.patches_beyond_cache = {6500, 9500};
     study.patches_over_bounces = 3300;
     study.seconds = 4;
   }
