@@ -4,6 +4,7 @@
 #include "experiments/dxt_radiosity/dxt_errors.hpp"
 #include "experiments/dxt_radiosity/dxt_pictures.hpp"
 #include "experiments/dxt_radiosity/dxt_speed.hpp"
+#include "experiments/dxt_radiosity/dxt_voxels.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
 #include "experiments/low_rank_radiosity/changing_lights.hpp"
@@ -165,6 +166,7 @@ ReportSection run_dxt_speed(const ReproduceOptions& options, const std::string& 
   DxtSpeedOptions study;
   if (options.full) {
     study.patches = {400, 800, 1600, 3300};
+    study.patches_beyond_cache = {6500, 9500};
     study.patches_over_bounces = 3300;
     study.seconds = 4;
   }
@@ -183,7 +185,20 @@ ReportSection run_dxt_pictures(const ReproduceOptions& options, const std::strin
   return dxt_pictures(options.folder, command, pictures, program.operators, monitor);
 }
 
-constexpr std::array<Experiment, 12> experiments = {{{"first-light", run_first_light},
+ReportSection run_dxt_voxels(const ReproduceOptions& options, const std::string& command, const Program&,
+                             Monitor& monitor) {
+  DxtVoxelsOptions study;
+  if (options.full) {
+    for (VoxelStudyScene& scene : study.scenes) scene.patches = 6600;
+    study.wanted = {50, 100, 200, 400, 800, 1600, 3200};
+    study.lights = {.area = 6, .point = 6};
+    study.tolerance = 1e-3;
+  }
+  study.seed = options.run.seed;
+  return dxt_voxels(options.folder, command, study, monitor);
+}
+
+constexpr std::array<Experiment, 13> experiments = {{{"first-light", run_first_light},
                                                      {"solvers", run_solvers},
                                                      {"hard-cases", run_hard_case_tables},
                                                      {"low-rank-pictures", run_low_rank_pictures},
@@ -194,7 +209,8 @@ constexpr std::array<Experiment, 12> experiments = {{{"first-light", run_first_l
                                                      {"low-rank-motion", run_low_rank_motion},
                                                      {"dxt-errors", run_dxt_errors},
                                                      {"dxt-speed", run_dxt_speed},
-                                                     {"dxt-pictures", run_dxt_pictures}}};
+                                                     {"dxt-pictures", run_dxt_pictures},
+                                                     {"dxt-voxels", run_dxt_voxels}}};
 
 /// "first-light, solvers, ...".
 std::string known_tables() {

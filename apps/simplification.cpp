@@ -24,7 +24,7 @@ PatchMesh with_emission(PatchMesh mesh, const Eigen::MatrixXd& emission) {
 CLI::Option* add_simplify_option(CLI::App& command, std::optional<std::string>& text) {
   return command
       .add_option("--simplify", text,
-                  "solve on about N axis-aligned patches made from a voxel grid and light the scene from "
+                  "solve on about N patches made from a voxel grid and light the scene from "
                   "these; --patches and --edge still cut the scene that is shown and written")
       ->option_text("voxels:N");
 }

@@ -4,6 +4,10 @@
 #include "foundation/parallel.hpp"
 #include "scene/gather_weights.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 namespace radiosity {
 namespace {
 
@@ -15,7 +19,34 @@ void check_rows(const SimplifiedScene& simplified, const Eigen::MatrixXd& field)
                      simplified.mesh->patch_count());
 }
 
+/// The keys of all quads, rising: the k-th quad is the k-th face of the simplified scene.
+std::vector<std::uint64_t> quad_keys(const std::vector<VoxelFragment>& fragments) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(fragments.size());
+  for (const VoxelFragment& fragment : fragments) keys.push_back(quad_key(fragment));
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
 }  // namespace
+
+Eigen::MatrixXd sum_over_fragments(const SimplifiedScene& simplified, const PatchMesh& original,
+                                   const Eigen::MatrixXd& field) {
+  if (field.rows() != original.patch_count())
+    fail<UsageError>("a field of {} rows cannot be summed over {} patches", field.rows(),
+                     original.patch_count());
+  const std::vector<std::uint64_t> keys = quad_keys(simplified.fragments);
+  Eigen::MatrixXd of_faces = Eigen::MatrixXd::Zero(static_cast<Index>(keys.size()), field.cols());
+  for (const VoxelFragment& fragment : simplified.fragments) {
+    const auto face = std::lower_bound(keys.begin(), keys.end(), quad_key(fragment)) - keys.begin();
+    of_faces.row(face) += fragment.area * field.row(fragment.patch);
+  }
+  Eigen::MatrixXd sums(simplified.mesh->patch_count(), field.cols());
+  for (Index i = 0; i < sums.rows(); ++i)
+    sums.row(i) = of_faces.row(simplified.mesh->patches[static_cast<std::size_t>(i)].face);
+  return sums;
+}
 
 Eigen::MatrixXd pull_back_to_patches(const SimplifiedScene& simplified, const PatchMesh& original,
                                      const Eigen::MatrixXd& field) {

@@ -6,6 +6,13 @@
 
 namespace radiosity {
 
+/// For each patch of a simplified scene the sum over its fragments of their areas times the field of the
+/// patches that they are part of: m x c from n x c. Divided by the areas of the quads it is the emission that
+/// has the power of `field` (as in the simplified mesh itself); by the sums of ones, the area-weighted mean.
+/// Throws UsageError for another number of rows than the fragments' patches have.
+Eigen::MatrixXd sum_over_fragments(const SimplifiedScene& simplified, const PatchMesh& original,
+                                   const Eigen::MatrixXd& field);
+
 /// What is known on the patches of a simplified scene, pulled back to each patch of the original that it was
 /// made from: the area-weighted mean over the fragments of the patch, each with the GatherWeights of its
 /// centroid. A patch smaller than a cell interpolates, a larger one takes the mean of what it became. `field`

@@ -32,6 +32,11 @@ struct VoxelFragment {
   Eigen::AlignedBox3d extent;
 };
 
+/// What the fragments of one quad share, its cell and direction; quads are in the order of these numbers.
+constexpr std::uint64_t quad_key(const VoxelFragment& fragment) {
+  return 6 * fragment.cell + static_cast<std::uint64_t>(fragment.direction);
+}
+
 /// Cuts every patch exactly along the cells: the areas of its fragments sum up to its own, up to rounding.
 /// Patch by patch, in the same order in every run.
 std::vector<VoxelFragment> cut_into_voxels(const PatchMesh& mesh, const VoxelGrid& grid);

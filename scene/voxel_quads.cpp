@@ -1,6 +1,7 @@
 #include "scene/voxel_quads.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -17,24 +18,30 @@ constexpr double kLeastSide = 1e-6;
 // they stand for lie among each other, and in any case.
 constexpr double kInvertedSheet = 0.1;
 constexpr double kClosedGap = 1e-3;
-
-std::uint64_t quad_key(const VoxelFragment& fragment) {
-  return 6 * fragment.cell + static_cast<std::uint64_t>(fragment.direction);
-}
+// Slopes below this are the rounding of a level surface.
+constexpr double kLevel = 1e-6;
 
 /// Sums over the fragments of one quad.
 struct VoxelSums {
   std::uint64_t cell = 0;
   int direction = 0;
   double area = 0;
-  double projected = 0;              // along the direction
-  Vector3 moment = Vector3::Zero();  // area times centroid
+  double projected = 0;                   // along the direction
+  Vector3 moment = Vector3::Zero();       // area times centroid
+  Vector3 area_normal = Vector3::Zero();  // area times normal
   Eigen::AlignedBox3d extent;
   Eigen::RowVectorXd reflected, power;
   std::map<int, double> groups;
 
   /// Area-weighted, along the direction.
   double offset() const { return moment[axis_of(direction)] / area; }
+  /// How far the mean plane rises along the axis for each step along another one.
+  double slope(int other) const {
+    const double slope = -area_normal[other] / area_normal[axis_of(direction)];
+    return std::abs(slope) > kLevel ? slope : 0.0;
+  }
+  /// Makes the mean plane a level one.
+  void level() { area_normal = area * sign_of(direction) * Vector3::Unit(axis_of(direction)); }
 };
 
 VoxelSums sum_up(const PatchMesh& mesh, const std::vector<VoxelFragment>& fragments,
@@ -50,6 +57,7 @@ VoxelSums sum_up(const PatchMesh& mesh, const std::vector<VoxelFragment>& fragme
     sums.area += fragment.area;
     sums.projected += fragment.area * std::abs(normal[axis]);
     sums.moment += fragment.area * fragment.centroid;
+    sums.area_normal += fragment.area * normal;
     sums.extent.extend(fragment.extent);
     sums.reflected += fragment.area * mesh.reflectance.row(fragment.patch);
     sums.power += fragment.area * mesh.emission.row(fragment.patch);
@@ -74,7 +82,7 @@ std::pair<double, double> scaled(double low, double high, double centre, double 
   return missing > 0 ? std::pair(low - missing / 2, high + missing / 2) : std::pair(low, high);
 }
 
-/// Puts the two sides of what became a wall with its fronts inside, by averaging, into one plane.
+/// Puts the two sides of what became a wall with its fronts inside, by averaging, into one level plane.
 void close_gap(VoxelSums& positive, VoxelSums& negative, const VoxelGrid& grid) {
   const int axis = axis_of(positive.direction);
   const double gap = negative.offset() - positive.offset();
@@ -84,6 +92,30 @@ void close_gap(VoxelSums& positive, VoxelSums& negative, const VoxelGrid& grid) 
   const double common = (positive.moment[axis] + negative.moment[axis]) / (positive.area + negative.area);
   positive.moment[axis] = common * positive.area;
   negative.moment[axis] = common * negative.area;
+  positive.level();
+  negative.level();
+}
+
+/// How much of the slope of the mean plane, 1 at most, leaves corners that rise so far above its centre
+/// within the extent of the fragments.
+double kept_slope(const VoxelSums& sums, const Vector3& centre, const std::array<double, 4>& rises) {
+  const int axis = axis_of(sums.direction);
+  const double highest = *std::max_element(rises.begin(), rises.end());
+  const double lowest = *std::min_element(rises.begin(), rises.end());
+  double kept = 1;
+  if (highest > 0) kept = std::min(kept, std::max(sums.extent.max()[axis] - centre[axis], 0.0) / highest);
+  if (lowest < 0) kept = std::min(kept, std::max(centre[axis] - sums.extent.min()[axis], 0.0) / -lowest);
+  return kept;
+}
+
+/// Moves the corners of a level rectangle about `centre` along the axis into the mean plane.
+void tilt(const VoxelSums& sums, const Vector3& centre, Polygon& corners) {
+  const int axis = axis_of(sums.direction), u = (axis + 1) % 3, v = (axis + 2) % 3;
+  std::array<double, 4> rises{};
+  for (std::size_t k = 0; k < 4; ++k)
+    rises[k] = sums.slope(u) * (corners[k][u] - centre[u]) + sums.slope(v) * (corners[k][v] - centre[v]);
+  const double kept = kept_slope(sums, centre, rises);
+  for (std::size_t k = 0; k < 4; ++k) corners[k][axis] += kept * rises[k];
 }
 
 Polygon rectangle(VoxelSums& sums, const VoxelGrid& grid) {
@@ -108,6 +140,7 @@ Polygon rectangle(VoxelSums& sums, const VoxelGrid& grid) {
   };
   Polygon corners = {corner(u_low, v_low), corner(u_high, v_low), corner(u_high, v_high),
                      corner(u_low, v_high)};
+  tilt(sums, centre, corners);
   if (sign_of(sums.direction) < 0) std::reverse(corners.begin(), corners.end());
   return corners;
 }

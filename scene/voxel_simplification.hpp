@@ -9,7 +9,8 @@
 
 namespace radiosity {
 
-/// A scene of few axis-aligned patches in place of one of many faces (document 000, section 3.2).
+/// A scene of few patches, one a voxel and direction, in place of one of many faces (document 000,
+/// section 3.2).
 struct SimplifiedScene {
   /// The quads (scene/voxel_quads.hpp), in the order of cells and directions. Its scene has one face a patch:
   /// the quads are what blocks light. Groups are those of the original, each quad in the one with most area.
@@ -24,11 +25,12 @@ struct SimplifiedScene {
 /// of the edge of a cell; the result has the nearer number of quads of two neighbouring grids, one with fewer
 /// than wanted and one with more (or the one cell or the grid that has exactly so many).
 ///
-/// What it does not keep: a slope becomes a stair of treads without risers, and where surfaces of different
-/// offset that look the same way share a cell, their quad stands between them. Light passes through the gaps,
-/// as wide as a cell at most, and is absorbed on the backs or lost. Axis-aligned walls leak nothing. Where
-/// the original is an enclosure, so is the result (topology.enclosure, though the quads may not be closed):
-/// what leaks out counts as arrived, and the symmetric closure of form factors brings it back.
+/// What it does not keep: where a cell cuts other than rectangles out of a curved or sloped surface, its
+/// quads do not meet, and where surfaces of different offset that look the same way share a cell, their quad
+/// stands between them. Light passes through the gaps, as wide as a cell at most, and is absorbed on the
+/// backs or lost. Axis-aligned walls leak nothing. Where the original is an enclosure, so is the result
+/// (topology.enclosure, though the quads may not be closed): what leaks out counts as arrived, and the
+/// symmetric closure of form factors brings it back.
 ///
 /// Throws UsageError for wanted < 1 and for more quads than a grid of 2^20 cells each way can have.
 SimplifiedScene simplify_to_voxels(const PatchMesh& mesh, Index wanted);

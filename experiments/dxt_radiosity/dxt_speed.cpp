@@ -4,6 +4,7 @@
 #include "experiments/dxt_radiosity/improvement_steps.hpp"
 #include "experiments/json_objects.hpp"
 #include "experiments/machine.hpp"
+#include "experiments/read_stream.hpp"
 #include "experiments/taking_turns.hpp"
 #include "foundation/error.hpp"
 #include "foundation/output_file.hpp"
@@ -45,6 +46,15 @@ BounceMethod solver_as_good(const LitScene& scene, double error, const OperatorR
   return method();
 }
 
+/// Reads as many bytes as a scalar F in float32 has.
+Competitor reading_alone(Index patches) {
+  const auto bytes = static_cast<std::size_t>(patches * patches) * sizeof(float);
+  const auto stream = std::make_shared<ReadStream>(bytes);
+  return {.name = "reading", .bytes = bytes, .work = [stream] {
+            for (int quarter = 0; quarter < ReadStream::quarters; ++quarter) stream->read_quarter();
+          }};
+}
+
 /// Times methods side by side with the first light, then measures their errors.
 SpeedRound race(const LitScene& scene, long bounces, const std::vector<BounceMethod>& methods, double seconds,
                 const OperatorRegistry& operators, Monitor& monitor) {
@@ -52,15 +62,21 @@ SpeedRound race(const LitScene& scene, long bounces, const std::vector<BounceMet
   const Field light = scene.emission.leftCols(scene.mesh().channels());
   Field radiosity(light.rows(), light.cols());
   std::vector<Competitor> competitors;
-  competitors.reserve(methods.size());
+  competitors.reserve(methods.size() + 1);
   for (const BounceMethod& method : methods)
     competitors.push_back({.name = method.name, .columns = light.cols(), .bytes = method.bytes, .work = [&] {
                              method.answer(light, radiosity);
                            }});
+  competitors.push_back(reading_alone(light.rows()));
   take_turns(competitors, 0);  // the first touches memory that later ones find in place
   take_turns(competitors, seconds);
 
-  SpeedRound round{scene.mesh().patch_count(), bounces, load_average(), {}};
+  SpeedRound round{.patches = scene.mesh().patch_count(),
+                   .channels = light.cols(),
+                   .bounces = bounces,
+                   .load = load_average(),
+                   .reading = Timing::of(competitors.back().seconds),
+                   .methods = {}};
   const auto exact = operators.make("dense", scene.form_factors);
   const Field after = after_bounces(*exact, scene.emission, bounces);
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -94,6 +110,22 @@ SpeedRound race_all(const LitScene& scene, const DxtSpeedOptions& options, const
   return race(scene, k, methods, options.seconds, operators, monitor);
 }
 
+/// The document's two and who is between them; one sum only, as each of them takes products of n x n
+/// matrices.
+SpeedRound race_beyond_cache(const LitScene& scene, const DxtSpeedOptions& options,
+                             const OperatorRegistry& operators, const SolverRegistry& solvers,
+                             Monitor& monitor) {
+  const long k = options.bounces;
+  std::vector<BounceMethod> methods = {summed_method(
+      document_sum, fmt::format("{}:bounces={}", document_variant, k), scene.form_factors, operators)};
+  const double error = error_in_answer(scene, methods.front(), scene.reference);
+  methods.push_back(solver_as_good(scene, error, operators, solvers));
+  methods.push_back(packed_method(scene.form_factors, k));
+  methods.push_back(naive_method(scene.form_factors, k));
+  std::reverse(methods.begin(), methods.end());
+  return race(scene, k, methods, options.seconds, operators, monitor);
+}
+
 SpeedRound race_over_bounces(const LitScene& scene, long bounces, double seconds,
                              const OperatorRegistry& operators, Monitor& monitor) {
   std::vector<BounceMethod> methods = {naive_method(scene.form_factors, bounces),
@@ -113,8 +145,11 @@ Json rounds_json(const std::vector<SpeedRound>& rounds) {
                          {"median_seconds", method.time.median},
                          {"error_of_bounces", or_null(method.error_of_bounces)},
                          {"error", method.error}});
-    list.push_back(
-        {{"patches", round.patches}, {"bounces", round.bounces}, {"load", round.load}, {"methods", methods}});
+    list.push_back({{"patches", round.patches},
+                    {"bounces", round.bounces},
+                    {"load", round.load},
+                    {"seconds_to_read_factors", round.reading.min},
+                    {"methods", methods}});
   }
   return list;
 }
@@ -130,10 +165,19 @@ std::string csv_rounds(const std::vector<SpeedRound>& rounds) {
 
 }  // namespace
 
+const MethodSpeed* SpeedRound::find(const std::string& name) const {
+  const auto own = std::find_if(methods.begin(), methods.end(),
+                                [&](const MethodSpeed& method) { return method.name == name; });
+  return own == methods.end() ? nullptr : &*own;
+}
+
 const MethodSpeed& SpeedRound::method(const std::string& name) const {
-  for (const MethodSpeed& own : methods)
-    if (own.name == name) return own;
+  if (const MethodSpeed* own = find(name)) return *own;
   fail("'{}' was not timed", name);
+}
+
+double SpeedRound::factor_bytes() const {
+  return static_cast<double>(sizeof(float)) * static_cast<double>(patches) * static_cast<double>(patches);
 }
 
 DxtSpeeds measure_dxt_speeds(const DxtSpeedOptions& options, const OperatorRegistry& operators,
@@ -143,6 +187,9 @@ DxtSpeeds measure_dxt_speeds(const DxtSpeedOptions& options, const OperatorRegis
   for (const Index patches : options.patches)
     speeds.over_patches.push_back(
         race_all(scene_of(options, patches, monitor), options, operators, solvers, monitor));
+  for (const Index patches : options.patches_beyond_cache)
+    speeds.over_patches.push_back(
+        race_beyond_cache(scene_of(options, patches, monitor), options, operators, solvers, monitor));
   if (options.bounce_counts.empty()) return speeds;
   const LitScene scene = scene_of(options, options.patches_over_bounces, monitor);
   for (const long bounces : options.bounce_counts)

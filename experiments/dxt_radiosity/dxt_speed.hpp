@@ -16,6 +16,7 @@ namespace radiosity {
 struct DxtSpeedOptions {
   std::string scene = "cornell-box-closed";
   std::vector<Index> patches = {400, 800, 1600};
+  std::vector<Index> patches_beyond_cache = {};  ///< larger ones, of fewer methods: S_k takes O(n^3)
   long bounces = 3;
   Index patches_over_bounces = 800;  ///< of the times over k
   std::vector<long> bounce_counts = {1, 2, 3, 5, 10};
@@ -36,17 +37,28 @@ struct MethodSpeed {
 /// Methods that took turns.
 struct SpeedRound {
   Index patches = 0;
+  Index channels = 0;
   long bounces = 0;
   double load = 0;  ///< of the machine afterwards
+  Timing reading;   ///< 4 n^2 bytes once, as a plain sum reads them, in turns with the methods
   std::vector<MethodSpeed> methods;
 
   /// Throws Error where the method was not measured.
   const MethodSpeed& method(const std::string& name) const;
+  /// Null where it was not.
+  const MethodSpeed* find(const std::string& name) const;
+
+  /// Bytes of a scalar F in float32, 4 n^2.
+  double factor_bytes() const;
+  /// How often the naive solver reads them: once a bounce and channel.
+  double naive_reads() const { return static_cast<double>(bounces * channels); }
+  /// Seconds to read so many bytes once at the rate of `reading`.
+  double seconds_to_read(double bytes) const { return reading.min * bytes / factor_bytes(); }
 };
 
 struct DxtSpeeds {
   int threads = 0;
-  std::vector<SpeedRound> over_patches;
+  std::vector<SpeedRound> over_patches;  ///< all methods, then, for larger n, those that are quickly built
   std::vector<SpeedRound> over_bounces;
 };
 
@@ -62,7 +74,10 @@ DxtSpeeds measure_dxt_speeds(const DxtSpeedOptions& options, const OperatorRegis
 /// The sum of k bounces in DXT against the naive method at the largest n: times and bytes, and what is
 /// wanted.
 std::string dxt_speed_finding(const DxtSpeeds& speeds);
-/// Who is faster for as good an answer: the sum or a solver.
+/// What reading alone takes at the largest n, and how far the naive solver and the compressed sum are from
+/// it.
+std::string reading_finding(const DxtSpeeds& speeds);
+/// Who is faster for as good an answer, the improved sum or a solver, at the largest n that has both.
 std::string solver_finding(const DxtSpeeds& speeds);
 
 ReportSection dxt_speed_section(const DxtSpeeds& speeds, const DxtSpeedOptions& options,

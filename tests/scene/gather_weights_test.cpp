@@ -143,6 +143,19 @@ TEST(GatherWeights, ReachFarWhereNothingIsNear) {
   EXPECT_THROW(GatherSearch(*few.mesh, few.grid).at(Vector3::Zero(), away), Error);
 }
 
+TEST(LightTransfer, SumsOverFragmentsHaveAllPowerAndThatOfEachQuad) {
+  const PatchMesh original = make_patches(built_in_scene("cornell-box-closed"), {.patches = 200});
+  const SimplifiedScene simplified = simplified_scene(original);
+  const Eigen::MatrixXd field = uneven_field(original.patch_count());
+  const Eigen::MatrixXd sums = sum_over_fragments(simplified, original, field);
+  EXPECT_NEAR(sums.sum(), original.area.dot(field.col(0)), 1e-9 * sums.sum());
+  const PatchMesh& mesh = *simplified.mesh;
+  const Eigen::MatrixXd power = sum_over_fragments(simplified, original, original.emission);
+  EXPECT_LT((power - mesh.area.asDiagonal() * mesh.emission).norm(), 1e-9 * power.norm());
+  EXPECT_GT((power - mesh.emission).norm(), 1e-3 * power.norm()) << "power is not emission";
+  EXPECT_THROW(sum_over_fragments(simplified, original, field.topRows(3)), UsageError);
+}
+
 TEST(LightTransfer, AveragesOverLargePatchesAndInterpolatesAtCorners) {
   const PatchMesh cube = make_patches(built_in_scene("cube"));
   const SimplifiedScene simplified = simplify_to_voxels(cube, 600);
