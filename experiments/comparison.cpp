@@ -138,6 +138,7 @@ ComparisonResult examine(const Task& task, const std::string& spec) {
   if (task.certifier != nullptr)
     result.certificate = task.certifier->certify(task.lights.emission, radiosity, task.reference);
   result.remark = transport->remark();
+  result.device = transport->device_use();
   if (!transport->global()) measure_transport(task, *transport, result);
   return result;
 }

@@ -54,7 +54,8 @@ struct ComparisonResult {
   std::string solver;  ///< as the solver describes itself; empty where the operator answers by itself
   std::size_t bytes = 0;
   double build_seconds = 0;
-  Timing apply;  ///< one product with n x channels
+  std::optional<DeviceUse> device;  ///< empty: the CPU
+  Timing apply;                     ///< one product with n x channels
   Timing solve;  ///< one light, over the lights; a solver that factors shows it in its first one
   ComparisonErrors errors;
   std::optional<double> row_sum_min;  ///< of its F, over live patches; empty for operators that map E to B

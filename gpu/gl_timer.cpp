@@ -1,0 +1,31 @@
+#include "gpu/gl_timer.hpp"
+
+#include <epoxy/gl.h>
+#include <utility>
+
+namespace radiosity {
+
+GlTimer::GlTimer(std::shared_ptr<const GlContext> context) : context_(std::move(context)) {
+  glGenQueries(1, &name_);
+}
+
+GlTimer::~GlTimer() {
+  const CurrentContext current(*context_);
+  glDeleteQueries(1, &name_);
+}
+
+void GlTimer::begin() {
+  glBeginQuery(GL_TIME_ELAPSED, name_);
+}
+
+void GlTimer::end() {
+  glEndQuery(GL_TIME_ELAPSED);
+}
+
+double GlTimer::seconds() const {
+  GLuint64 nanoseconds = 0;
+  glGetQueryObjectui64v(name_, GL_QUERY_RESULT, &nanoseconds);
+  return 1e-9 * static_cast<double>(nanoseconds);
+}
+
+}  // namespace radiosity

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "kernels/csr_matrix.hpp"
+#include "kernels/row_major_matrix.hpp"
+#include "kernels/symmetric_tiles.hpp"
+
+#include <variant>
+
+namespace radiosity {
+
+/// A matrix as an operator stores it, for who copies it elsewhere; it lives as long as the operator.
+using StoredMatrix =
+    std::variant<const SymmetricTiles<double>*, const SymmetricTiles<float>*, const SymmetricTiles<Half>*,
+                 const RowMajorMatrix<double>*, const RowMajorMatrix<float>*, const RowMajorMatrix<Half>*,
+                 const CsrMatrix<double>*, const CsrMatrix<float>*>;
+
+/// The side interface of operators that multiply with one matrix between their diagonals: the kernel K of a
+/// KernelOperator, or F of a MatrixOperator.
+class HasStoredMatrix {
+ public:
+  virtual ~HasStoredMatrix() = default;
+  virtual StoredMatrix stored() const = 0;
+};
+
+}  // namespace radiosity

@@ -1,0 +1,111 @@
+#include "gpu/gl_operators.hpp"
+#include "operators/operator_checks.hpp"
+#include "tests/conformance/transport_cases.hpp"
+#include "tests/gpu/device_test.hpp"
+
+#include <cctype>
+#include <string>
+
+namespace radiosity {
+namespace {
+
+double storage_roundoff(const std::string& spec) {
+  return spec.find("f16") != std::string::npos ? 0x1p-11 : 0x1p-24;
+}
+
+/// Every spec with either strategy.
+class DeviceOperators : public DeviceTest, public testing::WithParamInterface<std::string> {
+ protected:
+  static OperatorRegistry registry() { return gl_operators(device(), cpu_operators()); }
+};
+
+/// D1: the plain reference is T in long double; what is stored in float32 or binary16 may be off by n u.
+TEST_P(DeviceOperators, MultiplyAsThePlainArithmeticOfTheCpuDoes) {
+  for (const Index n : {0, 1, 6, 70})
+    for (TransportCase& data : transport_cases(n)) {
+      SCOPED_TRACE(data.name);
+      const auto transport = registry().make(GetParam(), data.form_factors);
+      allow_storage_error(data, storage_roundoff(GetParam()));
+      EXPECT_EQ(check_operator(*transport, data.reference), "");
+      EXPECT_EQ(check_certificate(*transport, data.reference, data.root_area), "");
+    }
+}
+
+class LimitedDevice : public DeviceTest {
+ protected:
+  /// Kernels of n patches, each in its own scale.
+  static FormFactors random_room(Index n) {
+    return symmetric_form_factors(random_kernel(n, 5), Eigen::VectorXd::Ones(n),
+                                  Eigen::MatrixXd::Constant(n, 1, 0.7));
+  }
+};
+
+TEST_F(LimitedDevice, SplitsWhatIsLargerThanAStorageBlockAndGivesTheSameBits) {
+  constexpr Index n = 300;  // five strips of 64 rows, of 64 x 320 numbers
+  const FormFactors form_factors = random_room(n);
+  const Field X = Field::Random(n, 5);
+  for (const char* strategy : {"strategy=group", "strategy=invocation"}) {
+    const std::string spec = with_keys("dense:f32", strategy);
+    const auto whole = gl_operators(device(), cpu_operators()).make(spec, form_factors);
+    const auto split =
+        gl_operators(device_with_blocks_of(2 * 64 * 320 * 4 + 4), cpu_operators()).make(spec, form_factors);
+    Field Y(n, 5);
+    Field Z(n, 5);
+    whole->apply(X, Y);
+    split->apply(X, Z);
+    EXPECT_EQ(Y, Z) << strategy;
+  }
+}
+
+TEST_F(LimitedDevice, RefusesWhatDoesNotFitIntoItsStorageBlocks) {
+  const auto registry = gl_operators(device_with_blocks_of(64 * 320 * 4 - 1), cpu_operators());
+  EXPECT_NO_THROW(registry.make("dense:f16", random_room(300)));
+  try {
+    registry.make("dense:f32", random_room(300));
+    FAIL() << "it was not refused";
+  } catch (const Error& error) {
+    for (const char* part : {"81920", "81919", "fewer patches", "--device cpu"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+using DeviceUses = LimitedDevice;
+
+TEST_F(DeviceUses, AreToldByTheOperatorAndByWhatIsWrappedAroundIt) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  for (const char* spec : {"dense:f32", "dense:f32,closure=symmetric", "dense:f16,closure=rows"}) {
+    const auto transport = registry.make(spec, random_room(70));
+    ASSERT_TRUE(transport->device_use().has_value()) << spec;
+    EXPECT_EQ(transport->device_use()->renderer, device()->context()->renderer());
+    EXPECT_GT(transport->device_use()->difference_max, 0) << "float32 sums in another order";
+    EXPECT_LT(transport->device_use()->difference_max, 70 * 0x1p-24);
+    EXPECT_GT(transport->device_use()->upload_seconds, 0);
+    EXPECT_GT(transport->device_use()->device_seconds, 0);
+  }
+  EXPECT_FALSE(cpu_operators().make("dense:f32", random_room(70))->device_use().has_value());
+}
+
+TEST_F(DeviceUses, OfOperatorsWithoutAFormForTheDeviceAreRefusedWithAListOfThoseThatHaveOne) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  for (const char* spec : {"topk", "dense", "dense:f64"}) try {
+      registry.make(spec, random_room(6));
+      ADD_FAILURE() << spec << " was not refused";
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("dense:f32, dense:f16"), std::string::npos) << error.what();
+    }
+}
+
+std::string spec_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Dense, DeviceOperators,
+                         testing::Values("dense:f32,strategy=group", "dense:f32,strategy=invocation",
+                                         "dense:f16,strategy=group", "dense:f16,strategy=invocation"),
+                         spec_name);
+
+}  // namespace
+}  // namespace radiosity
