@@ -4,6 +4,7 @@
 #include "operators/linear_operator.hpp"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 
 namespace radiosity {
@@ -34,6 +35,10 @@ class DeviceMatrix {
   DeviceMatrix& operator=(const DeviceMatrix&) = delete;
 
   GlDevice& device() const { return *device_; }
+
+  /// Y = scale times what `dispatch_columns` makes of X, both bound as FieldBuffers says; timed.
+  void run(const ConstFieldRef& X, FieldRef Y, double scale,
+           const std::function<void(Index columns)>& dispatch_columns) const;
 
   /// Has the device compute Y of `columns` columns from X, both bound as FieldBuffers says.
   virtual void dispatch(Index columns) const = 0;

@@ -9,12 +9,17 @@ namespace radiosity {
 
 DeviceUse OnDevice::use() const {
   DeviceUse use = origin_.use;
-  use.device_seconds = matrix_->device_seconds();
+  for (const auto& matrix : matrices_) use.device_seconds += matrix->device_seconds();
   return use;
 }
 
 ByteCount OnDevice::bytes_with_diagonals(Index n, Index channels) const {
-  ByteCount bytes = matrix_->bytes();
+  ByteCount bytes = matrices_.front()->bytes();
+  for (std::size_t other = 1; other < matrices_.size(); ++other) {
+    const ByteCount further = matrices_[other]->bytes();
+    for (std::size_t part = 0; part < further.parts.size(); ++part)
+      bytes.parts[part].second += further.parts[part].second;
+  }
   bytes.parts.emplace_back("diagonals", diagonal_bytes(n, channels));
   return bytes;
 }
@@ -32,6 +37,28 @@ void DeviceMatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, doub
   Field product(X.rows(), X.cols());
   matrix().multiply(X, product);
   add_product(alpha * reflectance_.array(), product, beta, Y);
+}
+
+DeviceColourOperator::DeviceColourOperator(const ColourOperator& original,
+                                           std::vector<std::unique_ptr<DeviceMatrix>> matrices,
+                                           DeviceOrigin origin)
+    : OnDevice(std::move(matrices), std::move(origin)),
+      reflectance_(original.reflectance()),
+      inverse_colours_(sender_colours(reflectance_).array().inverse()),
+      reflectances_(reflectance_),
+      global_(original.global()) {}
+
+void DeviceColourOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
+  Field scaled(X.rows(), X.cols());
+  add_product(inverse_colours_, X, 0, scaled);
+  const Field product =
+      reflectances_.multiply_each(scaled, size(), [&](Index distinct, const Field& fields, FieldRef images) {
+        matrix(distinct).multiply(fields, images);
+      });
+  if (!global_) return add_product(alpha * reflectance_.array(), product, beta, Y);
+  Field reflected(X.rows(), X.cols());
+  add_product(reflectance_.array(), product, 0, reflected);
+  add_answer(alpha, X, reflected, beta, Y);
 }
 
 }  // namespace radiosity

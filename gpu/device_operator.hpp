@@ -1,11 +1,15 @@
 #pragma once
 
 #include "gpu/device_matrix.hpp"
+#include "operators/colour_operator.hpp"
+#include "operators/distinct_reflectances.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace radiosity {
 
@@ -17,7 +21,7 @@ struct DeviceOrigin {
   DeviceUse use;
 };
 
-/// What operators that compute with a copy on the device have.
+/// What operators that compute with copies of matrices on the device have.
 class OnDevice {
  public:
   virtual ~OnDevice() = default;
@@ -25,21 +29,26 @@ class OnDevice {
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
 
  protected:
-  OnDevice(std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
-      : matrix_(std::move(matrix)), origin_(std::move(origin)) {}
+  using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
 
-  const DeviceMatrix& matrix() const { return *matrix_; }
+  OnDevice(std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin) : origin_(std::move(origin)) {
+    matrices_.push_back(std::move(matrix));
+  }
+  OnDevice(Matrices matrices, DeviceOrigin origin)
+      : matrices_(std::move(matrices)), origin_(std::move(origin)) {}
+
+  const DeviceMatrix& matrix(Index index = 0) const { return *matrices_[static_cast<std::size_t>(index)]; }
   const DeviceOrigin& origin() const { return origin_; }
   DeviceUse use() const;
   ByteCount bytes_with_diagonals(Index n, Index channels) const;
 
  private:
-  std::unique_ptr<DeviceMatrix> matrix_;
+  Matrices matrices_;
   DeviceOrigin origin_;
 };
 
 /// R A^{-1/2} K A^{1/2} with K on the device, its diagonals on the CPU in double precision.
-class DeviceKernelOperator final : public KernelOperator, public OnDevice {
+class DeviceKernelOperator : public KernelOperator, public OnDevice {
  public:
   /// `matrix` is K; areas and reflectances are those of `original`.
   DeviceKernelOperator(const KernelOperator& original, std::unique_ptr<DeviceMatrix> matrix,
@@ -57,12 +66,13 @@ class DeviceKernelOperator final : public KernelOperator, public OnDevice {
 };
 
 /// R F with F on the device.
-class DeviceMatrixOperator final : public LinearOperator, public OnDevice {
+class DeviceMatrixOperator : public LinearOperator, public OnDevice {
  public:
   /// `matrix` is F; reflectances are those of `original`.
   DeviceMatrixOperator(const MatrixOperator& original, std::unique_ptr<DeviceMatrix> matrix,
                        DeviceOrigin origin);
 
+  const Eigen::MatrixXd& reflectance() const { return reflectance_; }
   Index size() const override { return reflectance_.rows(); }
   Index channels() const override { return reflectance_.cols(); }
   ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
@@ -77,6 +87,33 @@ class DeviceMatrixOperator final : public LinearOperator, public OnDevice {
 
  private:
   Eigen::MatrixXd reflectance_;
+};
+
+/// Document 000's R M C^-1, or E + R M C^-1 E where global (operators/colour_operator.hpp), with a matrix M
+/// for each distinct reflectance on the device.
+class DeviceColourOperator final : public LinearOperator, public OnDevice {
+ public:
+  DeviceColourOperator(const ColourOperator& original, std::vector<std::unique_ptr<DeviceMatrix>> matrices,
+                       DeviceOrigin origin);
+
+  Index size() const override { return reflectance_.rows(); }
+  Index channels() const override { return reflectance_.cols(); }
+  bool global() const override { return global_; }
+  ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
+  std::string describe() const override { return origin().spec; }
+  std::string remark() const override { return origin().remark; }
+  double product_roundoff() const override { return 0x1p-24; }
+  Certificate certificate() const override { return origin().certificate; }
+  std::optional<DeviceUse> device_use() const override { return use(); }
+
+ protected:
+  void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
+
+ private:
+  Eigen::MatrixXd reflectance_;
+  Eigen::ArrayXXd inverse_colours_;  ///< 1 / c, n x channels
+  DistinctReflectances reflectances_;
+  bool global_;
 };
 
 }  // namespace radiosity

@@ -24,6 +24,8 @@ class FieldBuffers {
   /// Sends X, makes room for a Y of `y_rows` rows and as many columns, and binds both. The context is
   /// current.
   void send(const ConstFieldRef& X, Index y_rows);
+  /// Makes the Y that was sent for another storage block as well.
+  void bind_y(unsigned binding) const { y_in_use_->bind(binding); }
   /// Waits for the device and gives `scale` times what it wrote.
   void receive(double scale, FieldRef Y);
 

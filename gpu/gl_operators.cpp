@@ -8,7 +8,9 @@
 namespace radiosity {
 namespace {
 
+/// Of those that have rows to share out.
 std::optional<RowStrategy> take_strategy(Spec& spec) {
+  if (spec.name() != "dense" && spec.name() != "csr" && spec.name() != "bounces") return std::nullopt;
   const std::string strategy = spec.choice("strategy", "auto", {"auto", "group", "invocation"});
   if (strategy == "group") return RowStrategy::group;
   if (strategy == "invocation") return RowStrategy::invocation;

@@ -14,11 +14,11 @@ GlTimer::~GlTimer() {
   glDeleteQueries(1, &name_);
 }
 
-void GlTimer::begin() {
-  glBeginQuery(GL_TIME_ELAPSED, name_);
+GlTimer::Measurement::Measurement(GlTimer& timer) {
+  glBeginQuery(GL_TIME_ELAPSED, timer.name_);
 }
 
-void GlTimer::end() {
+GlTimer::Measurement::~Measurement() {
   glEndQuery(GL_TIME_ELAPSED);
 }
 

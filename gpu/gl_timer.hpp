@@ -6,8 +6,8 @@
 
 namespace radiosity {
 
-/// Time that the device spends on what is asked of it between begin() and end(). The context is current in
-/// every call but the destructor's.
+/// Time that the device spends on what is asked of it while a Measurement lives, one at a time. The context
+/// is current in every call but the destructor's.
 class GlTimer {
  public:
   explicit GlTimer(std::shared_ptr<const GlContext> context);
@@ -15,9 +15,15 @@ class GlTimer {
   GlTimer(const GlTimer&) = delete;
   GlTimer& operator=(const GlTimer&) = delete;
 
-  void begin();
-  void end();
-  /// Waits for the device; free where its results were read back before.
+  class Measurement {
+   public:
+    explicit Measurement(GlTimer& timer);
+    ~Measurement();
+    Measurement(const Measurement&) = delete;
+    Measurement& operator=(const Measurement&) = delete;
+  };
+
+  /// Of the last one. Waits for the device; free where its results were read back before.
   double seconds() const;
 
  private:

@@ -4,8 +4,14 @@
 #include "foundation/random.hpp"
 #include "foundation/spec.hpp"
 #include "foundation/stopwatch.hpp"
+#include "gpu/csr_on_device.hpp"
 #include "gpu/dense_on_device.hpp"
+#include "gpu/device_factors_operator.hpp"
 #include "gpu/device_operator.hpp"
+#include "gpu/low_rank_on_device.hpp"
+#include "gpu/sparse_v_on_device.hpp"
+#include "operators/low_rank_operator.hpp"
+#include "operators/sparse_v_operator.hpp"
 #include "operators/stored_matrix.hpp"
 
 #include <fmt/ranges.h>
@@ -15,40 +21,6 @@
 
 namespace radiosity {
 namespace {
-
-/// Copies what it can and returns null for the rest.
-class Uploader {
- public:
-  Uploader(const std::shared_ptr<GlDevice>& device, RowStrategy strategy)
-      : device_(device), strategy_(strategy) {}
-
-  std::unique_ptr<DeviceMatrix> copy(const LinearOperator& original) const {
-    if (const auto* stored = dynamic_cast<const HasStoredMatrix*>(&original))
-      return std::visit([this](const auto* matrix) { return copy_stored(*matrix); }, stored->stored());
-    return nullptr;
-  }
-
- private:
-  using Copy = std::unique_ptr<DeviceMatrix>;
-
-  Copy copy_stored(const SymmetricTiles<float>& kernel) const { return dense(kernel); }
-  Copy copy_stored(const SymmetricTiles<Half>& kernel) const { return dense(kernel); }
-  Copy copy_stored(const RowMajorMatrix<float>& matrix) const { return dense(matrix); }
-  Copy copy_stored(const RowMajorMatrix<Half>& matrix) const { return dense(matrix); }
-  /// Double precision is not for the device: few graphics cards are fast at it.
-  template <typename Other>
-  Copy copy_stored(const Other&) const {
-    return nullptr;
-  }
-
-  template <template <typename> class Matrix, typename Scalar>
-  Copy dense(const Matrix<Scalar>& matrix) const {
-    return std::make_unique<DenseOnDevice<Scalar>>(device_, matrix, strategy_);
-  }
-
-  std::shared_ptr<GlDevice> device_;
-  RowStrategy strategy_;
-};
 
 [[noreturn]] void refuse(const std::string& spec) {
   fail<UsageError>("{} cannot run with --device gl; those that can are {}", spec,
@@ -60,6 +32,91 @@ std::string spec_on_device(const LinearOperator& original, std::optional<RowStra
   return with_keys(original.describe(),
                    *strategy == RowStrategy::group ? "strategy=group" : "strategy=invocation");
 }
+
+/// Copies one operator to a device, matrix by matrix.
+class Uploader {
+ public:
+  Uploader(std::shared_ptr<GlDevice> device, const LinearOperator& original,
+           std::optional<RowStrategy> strategy)
+      : device_(std::move(device)),
+        original_(original),
+        strategy_(strategy.value_or(device_->preferred_strategy())),
+        spec_(spec_on_device(original, strategy)) {}
+
+  /// Throws UsageError for operators that have no form for the device.
+  std::unique_ptr<LinearOperator> copy() const {
+    if (const auto* stored = dynamic_cast<const HasStoredMatrix*>(&original_))
+      return with_diagonals(copy_stored(stored->stored()));
+    if (const auto* stored = dynamic_cast<const HasStoredColours*>(&original_)) return copy_colours(*stored);
+    if (const auto* factors = dynamic_cast<const LowRankOperator<float>*>(&original_))
+      return std::make_unique<DeviceFactorsOperator>(
+          *factors,
+          std::make_unique<LowRankOnDevice>(device_, factors->left_factor(), factors->right_factor()),
+          origin());
+    if (const auto* factors = dynamic_cast<const SparseVOperator<float>*>(&original_))
+      return std::make_unique<DeviceFactorsOperator>(
+          *factors,
+          std::make_unique<SparseVOnDevice>(device_, factors->left_factor(), factors->right_factor()),
+          origin());
+    if (const auto* factors = dynamic_cast<const LowRankKernelOperator<float>*>(&original_))
+      return std::make_unique<DeviceKernelFactorsOperator>(
+          *factors, std::make_unique<LowRankOnDevice>(device_, factors->factor(), factors->values()),
+          origin());
+    refuse(original_.describe());
+  }
+
+ private:
+  using Copy = std::unique_ptr<DeviceMatrix>;
+
+  std::unique_ptr<LinearOperator> with_diagonals(Copy matrix) const {
+    if (const auto* kernel = dynamic_cast<const KernelOperator*>(&original_))
+      return std::make_unique<DeviceKernelOperator>(*kernel, std::move(matrix), origin());
+    return std::make_unique<DeviceMatrixOperator>(dynamic_cast<const MatrixOperator&>(original_),
+                                                  std::move(matrix), origin());
+  }
+
+  std::unique_ptr<LinearOperator> copy_colours(const HasStoredColours& stored) const {
+    std::vector<Copy> matrices;
+    for (const StoredMatrix& matrix : stored.stored_colours()) matrices.push_back(copy_stored(matrix));
+    return std::make_unique<DeviceColourOperator>(dynamic_cast<const ColourOperator&>(original_),
+                                                  std::move(matrices), origin());
+  }
+
+  Copy copy_stored(const StoredMatrix& stored) const {
+    return std::visit([this](const auto* matrix) { return copy_matrix(*matrix); }, stored);
+  }
+  Copy copy_matrix(const SymmetricTiles<float>& kernel) const { return dense(kernel); }
+  Copy copy_matrix(const SymmetricTiles<Half>& kernel) const { return dense(kernel); }
+  Copy copy_matrix(const RowMajorMatrix<float>& matrix) const { return dense(matrix); }
+  Copy copy_matrix(const RowMajorMatrix<Half>& matrix) const { return dense(matrix); }
+  Copy copy_matrix(const CsrMatrix<float>& matrix) const {
+    return std::make_unique<CsrOnDevice>(device_, matrix, strategy_);
+  }
+  /// Double precision is not for the device: few graphics cards are fast at it.
+  template <typename Other>
+  Copy copy_matrix(const Other&) const {
+    refuse(original_.describe());
+  }
+  template <template <typename> class Matrix, typename Scalar>
+  Copy dense(const Matrix<Scalar>& matrix) const {
+    return std::make_unique<DenseOnDevice<Scalar>>(device_, matrix, strategy_);
+  }
+
+  /// Called when everything is on the device.
+  DeviceOrigin origin() const {
+    const GlContext& context = *device_->context();
+    return {spec_,
+            original_.remark(),
+            original_.certificate(),
+            {"gl", context.renderer(), context.software(), 0, watch_.seconds(), 0}};
+  }
+
+  std::shared_ptr<GlDevice> device_;
+  const LinearOperator& original_;
+  RowStrategy strategy_;
+  std::string spec_;
+  Stopwatch watch_;
+};
 
 /// The largest |difference| of a component of a product, relative to the largest component.
 double largest_difference(const LinearOperator& original, const LinearOperator& copy) {
@@ -73,25 +130,17 @@ double largest_difference(const LinearOperator& original, const LinearOperator& 
   return largest == 0 ? 0 : (Z - Y).cwiseAbs().maxCoeff() / largest;
 }
 
-template <typename Operator, typename Original>
-std::unique_ptr<LinearOperator> finish(const Original& original, std::unique_ptr<DeviceMatrix> matrix,
-                                       DeviceOrigin origin) {
-  const DeviceUse use = origin.use;
-  auto copy = std::make_unique<Operator>(original, std::move(matrix), std::move(origin));
-  const double difference = largest_difference(original, *copy);
-  // Both products are within 2 (n + 8) u |A| |X| of the true one, and nothing is negative but factors.
-  const double allowed = 0x1p-24 * 4 * (static_cast<double>(original.size()) + 8);
-  if (!(difference <= std::max(allowed, 1e-4)))
-    fail("{} on '{}' differs from the CPU's by {:.1e}: its driver computes something else; use --device cpu",
-         original.describe(), use.renderer, difference);
-  copy->set_difference(difference);
-  return copy;
+/// Both products are within 2 (n + 8) u |A| |X| of the true one; factors may have signs, whose terms cancel.
+double allowed_difference(const LinearOperator& original) {
+  return std::max(4 * (static_cast<double>(original.size()) + 8) * 0x1p-24, 1e-4);
 }
 
 }  // namespace
 
 const std::vector<std::string>& uploadable_specs() {
-  static const std::vector<std::string> specs = {"dense:f32", "dense:f16"};
+  static const std::vector<std::string> specs = {"dense:f32", "dense:f16",    "csr:f32",   "svd:k=64",
+                                                 "rsvd:k=64", "qr:k=64",      "2msc:k=64", "sparse-v:k=64",
+                                                 "cur:k=64",  "wavelet:k=64", "dct:k=64",  "bounces:k=3"};
   return specs;
 }
 
@@ -105,16 +154,13 @@ void require_uploadable(const std::string& spec) {
 
 std::unique_ptr<LinearOperator> upload(const std::shared_ptr<GlDevice>& device,
                                        const LinearOperator& original, std::optional<RowStrategy> strategy) {
-  const GlContext& context = *device->context();
-  const Stopwatch watch;
-  auto matrix = Uploader(device, strategy.value_or(device->preferred_strategy())).copy(original);
-  if (!matrix) refuse(original.describe());
-  DeviceOrigin origin{spec_on_device(original, strategy), original.remark(), original.certificate(), {}};
-  origin.use = {"gl", context.renderer(), context.software(), 0, watch.seconds(), 0};
-  if (const auto* kernel = dynamic_cast<const KernelOperator*>(&original))
-    return finish<DeviceKernelOperator>(*kernel, std::move(matrix), std::move(origin));
-  return finish<DeviceMatrixOperator>(dynamic_cast<const MatrixOperator&>(original), std::move(matrix),
-                                      std::move(origin));
+  auto copy = Uploader(device, original, strategy).copy();
+  const double difference = largest_difference(original, *copy);
+  if (!(difference <= allowed_difference(original)))
+    fail("{} on '{}' differs from the CPU's by {:.1e}: its driver computes something else; use --device cpu",
+         original.describe(), device->context()->renderer(), difference);
+  dynamic_cast<OnDevice&>(*copy).set_difference(difference);
+  return copy;
 }
 
 }  // namespace radiosity

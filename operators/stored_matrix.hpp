@@ -5,6 +5,7 @@
 #include "kernels/symmetric_tiles.hpp"
 
 #include <variant>
+#include <vector>
 
 namespace radiosity {
 
@@ -20,6 +21,14 @@ class HasStoredMatrix {
  public:
   virtual ~HasStoredMatrix() = default;
   virtual StoredMatrix stored() const = 0;
+};
+
+/// The side interface of ColourOperators that keep a full matrix for each distinct reflectance, in the order
+/// of DistinctReflectances.
+class HasStoredColours {
+ public:
+  virtual ~HasStoredColours() = default;
+  virtual std::vector<StoredMatrix> stored_colours() const = 0;
 };
 
 }  // namespace radiosity

@@ -4,6 +4,7 @@
 #include "tests/gpu/device_test.hpp"
 
 #include <epoxy/gl.h>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -115,9 +116,9 @@ TEST_F(Context, RefusesUniformsThatAShaderHasNot) {
 TEST_F(Context, TimesTheDevice) {
   const CurrentContext current(*device()->context());
   GlTimer timer(device()->context());
-  timer.begin();
+  std::optional<GlTimer::Measurement> measurement(timer);
   GlBuffer buffer(device()->context(), 1 << 20);
-  timer.end();
+  measurement.reset();
   EXPECT_GE(timer.seconds(), 0);
   EXPECT_LT(timer.seconds(), 10);
 }

@@ -1,4 +1,5 @@
 #include "gpu/gl_operators.hpp"
+#include "operators/low_rank_operator.hpp"
 #include "operators/operator_checks.hpp"
 #include "tests/conformance/transport_cases.hpp"
 #include "tests/gpu/device_test.hpp"
@@ -57,6 +58,21 @@ TEST_F(LimitedDevice, SplitsWhatIsLargerThanAStorageBlockAndGivesTheSameBits) {
   }
 }
 
+TEST_F(LimitedDevice, SplitsFactorsAndSparseMatricesToo) {
+  constexpr Index n = 300;  // five panels of 64 rows, each of 2048 bytes with k = 8
+  const FormFactors form_factors = random_room(n);
+  const Field X = Field::Random(n, 5);
+  const auto whole = gl_operators(device(), cpu_operators());
+  const auto split = gl_operators(device_with_blocks_of(2 * 2048), cpu_operators());
+  for (const char* spec : {"svd:k=8", "svd:k=8,norm=area,method=lanczos", "sparse-v:k=8", "csr:f32"}) {
+    Field Y(n, 5);
+    Field Z(n, 5);
+    whole.make(spec, form_factors)->apply(X, Y);
+    split.make(spec, form_factors)->apply(X, Z);
+    EXPECT_LE((Y - Z).norm(), 1e-6 * Y.norm()) << spec;
+  }
+}
+
 TEST_F(LimitedDevice, RefusesWhatDoesNotFitIntoItsStorageBlocks) {
   const auto registry = gl_operators(device_with_blocks_of(64 * 320 * 4 - 1), cpu_operators());
   EXPECT_NO_THROW(registry.make("dense:f16", random_room(300)));
@@ -102,10 +118,43 @@ std::string spec_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Dense, DeviceOperators,
+/// Operators that are made of approximations: the plain reference is the CPU's operator, entry by entry.
+class DeviceCopies : public DeviceOperators {};
+
+TEST_P(DeviceCopies, MultiplyAsTheOperatorThatTheyAreCopiesOf) {
+  for (const Index n : {1, 70})
+    for (const TransportCase& data : transport_cases(n)) {
+      if (!data.form_factors.symmetric() && GetParam().find("norm=area") != std::string::npos) continue;
+      SCOPED_TRACE(data.name);
+      const auto original = cpu_operators().make(GetParam(), data.form_factors);
+      const auto copy = registry().make(GetParam(), data.form_factors);
+      EXPECT_EQ(copy->describe(), original->describe());
+      EXPECT_EQ(copy->symmetric(), original->symmetric());
+      EXPECT_EQ(copy->global(), original->global());
+      EXPECT_EQ(check_operator(*copy, own_entries(*original)), "");
+      const auto* left = dynamic_cast<const LowRankFactors*>(original.get());
+      const auto* right = dynamic_cast<const LowRankFactors*>(copy.get());
+      ASSERT_EQ(left == nullptr, right == nullptr);
+      if (left != nullptr) {
+        const Field ones = Field::Ones(n, 1);
+        const Eigen::MatrixXd expected = left->multiply_between(ones).front();
+        EXPECT_LE((right->multiply_between(ones).front() - expected).norm(), 1e-5 * expected.norm());
+      }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stored, DeviceOperators,
                          testing::Values("dense:f32,strategy=group", "dense:f32,strategy=invocation",
-                                         "dense:f16,strategy=group", "dense:f16,strategy=invocation"),
+                                         "dense:f16,strategy=group", "dense:f16,strategy=invocation",
+                                         "csr:f32,strategy=group", "csr:f32,strategy=invocation"),
                          spec_name);
+
+INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
+                         testing::Values("svd:k=8", "svd:k=8,norm=area,method=lanczos", "2msc:k=8",
+                                         "sparse-v:k=8"),
+                         spec_name);
+INSTANTIATE_TEST_SUITE_P(Bounces, DeviceCopies,
+                         testing::Values("bounces:k=3,storage=f32", "bounces:k=2,storage=f16"), spec_name);
 
 }  // namespace
 }  // namespace radiosity

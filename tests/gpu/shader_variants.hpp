@@ -14,6 +14,14 @@ inline std::vector<ShaderVariant> shader_variants() {
         {"dense_group.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 4}, {"INVOCATIONS", 128}}});
     variants.push_back({"dense_invocation.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 64}}});
   }
+  for (const int lanes : {1, 32})
+    variants.push_back({"csr_rows.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}}});
+  variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
+  for (const int present : {0, 1}) {
+    variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
+    variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
+    variants.push_back({"segment_sums.comp", {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}}});
+  }
   return variants;
 }
 

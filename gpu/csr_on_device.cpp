@@ -1,0 +1,109 @@
+#include "gpu/csr_on_device.hpp"
+
+#include "foundation/error.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace radiosity {
+namespace {
+
+constexpr unsigned values_binding = 0;
+constexpr unsigned columns_binding = 3;
+constexpr unsigned row_begin_binding = 4;
+/// Invocations of a work group, and how many of them share a row.
+struct RowSharing {
+  int invocations;
+  int lanes;
+};
+constexpr RowSharing shared_rows{128, 32};
+constexpr RowSharing single_rows{64, 1};
+
+std::int64_t begin_of(const CsrMatrix<float>& matrix, Index row) {
+  return matrix.row_begin[static_cast<std::size_t>(row)];
+}
+
+/// The row after the last of those from `first` on whose entries and offsets fit into a storage block.
+Index end_of_block(const CsrMatrix<float>& matrix, Index first, const GlContext& context) {
+  const std::int64_t most = context.limits().storage_block_bytes / 4;
+  const auto from = matrix.row_begin.begin() + first;
+  const auto beyond = std::upper_bound(from, matrix.row_begin.end(), *from + most);
+  const Index end = std::min<Index>((beyond - matrix.row_begin.begin()) - 1, first + most - 1);
+  if (end <= first)
+    fail("row {} has {} entries, and a storage block of '{}' has room for {}: use --device cpu", first,
+         begin_of(matrix, first + 1) - *from, context.renderer(), most);
+  return end;
+}
+
+template <typename Number>
+GlBuffer buffer_of(const std::shared_ptr<const GlContext>& context, const Number* numbers,
+                   std::size_t count) {
+  GlBuffer buffer(context, std::max<std::size_t>(count, 1) * sizeof(Number));
+  if (count > 0) buffer.write(0, count * sizeof(Number), numbers);
+  return buffer;
+}
+
+}  // namespace
+
+CsrOnDevice::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMatrix<float>& matrix,
+                         RowStrategy strategy)
+    : DeviceMatrix(std::move(device_of_matrix), matrix.rows(), matrix.cols), strategy_(strategy) {
+  const GlContext& context = *device().context();
+  const CurrentContext current(context);
+  for (Index first = 0; first < rows();) {
+    const Index end = end_of_block(matrix, first, context);
+    upload_block(matrix, first, end);
+    first = end;
+  }
+  context.check("sending a sparse matrix");
+}
+
+void CsrOnDevice::upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row) {
+  const auto& context = device().context();
+  const std::int64_t first = begin_of(matrix, first_row);
+  const auto count = static_cast<std::size_t>(begin_of(matrix, end_row) - first);
+  std::vector<std::uint32_t> row_begin;
+  for (Index row = first_row; row <= end_row; ++row)
+    row_begin.push_back(static_cast<std::uint32_t>(begin_of(matrix, row) - first));
+  blocks_.push_back({first_row, end_row - first_row, buffer_of(context, matrix.value.data() + first, count),
+                     buffer_of(context, matrix.column.data() + first, count),
+                     buffer_of(context, row_begin.data(), row_begin.size())});
+}
+
+ByteCount CsrOnDevice::bytes() const {
+  std::size_t entries = 0;
+  std::size_t indices = 0;
+  for (const Block& block : blocks_) {
+    entries += block.values.bytes();
+    indices += block.columns.bytes() + block.row_begin.bytes();
+  }
+  return {{{"entries", entries}, {"indices", indices}}};
+}
+
+void CsrOnDevice::dispatch(Index columns) const {
+  for (const Block& block : blocks_) {
+    block.values.bind(values_binding);
+    block.columns.bind(columns_binding);
+    block.row_begin.bind(row_begin_binding);
+    for (Index first = 0; first < columns; first += device_columns_at_once)
+      dispatch_block(block, first, std::min(device_columns_at_once, columns - first));
+  }
+}
+
+void CsrOnDevice::dispatch_block(const Block& block, Index first_column, Index columns) const {
+  const RowSharing sharing = strategy_ == RowStrategy::group ? shared_rows : single_rows;
+  const int rows_together = sharing.invocations / sharing.lanes;
+  const GlProgram& program = device().program({"csr_rows.comp",
+                                               {{"COLUMNS", static_cast<int>(columns)},
+                                                {"INVOCATIONS", sharing.invocations},
+                                                {"LANES", sharing.lanes}}});
+  program.use();
+  program.set("first_row", block.first_row);
+  program.set("block_rows", block.rows);
+  program.set("x_stride", FieldBuffers::padded(cols()));
+  program.set("y_stride", FieldBuffers::padded(rows()));
+  program.set("first_column", first_column);
+  program.dispatch((block.rows + rows_together - 1) / rows_together);
+}
+
+}  // namespace radiosity
