@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 namespace radiosity {
 namespace {
 
@@ -18,7 +20,11 @@ void require_known_device(const RunOptions& options) {
 
 std::shared_ptr<GlDevice> open_device(const RunOptions& options) {
   require_known_device(options);
-  return options.device == "gl" ? GlDevice::open() : nullptr;
+  if (options.device != "gl") return nullptr;
+  // A driver that is not there would be reported in Mesa's words as well; who wants them sets the variable.
+  constexpr int keep = 0;
+  ::setenv("EGL_LOG_LEVEL", "fatal", keep);
+  return GlDevice::open();
 }
 
 Program on_device(const Program& program, const RunOptions& options, const std::vector<std::string>& specs) {

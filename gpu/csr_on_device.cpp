@@ -38,7 +38,7 @@ Index end_of_block(const CsrMatrix<float>& matrix, Index first, const GlContext&
 template <typename Number>
 GlBuffer buffer_of(const std::shared_ptr<const GlContext>& context, const Number* numbers,
                    std::size_t count) {
-  GlBuffer buffer(context, std::max<std::size_t>(count, 1) * sizeof(Number));
+  GlBuffer buffer(context, std::max<std::size_t>(count * sizeof(Number), 4));
   if (count > 0) buffer.write(0, count * sizeof(Number), numbers);
   return buffer;
 }
@@ -47,7 +47,9 @@ GlBuffer buffer_of(const std::shared_ptr<const GlContext>& context, const Number
 
 CsrOnDevice::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMatrix<float>& matrix,
                          RowStrategy strategy)
-    : DeviceMatrix(std::move(device_of_matrix), matrix.rows(), matrix.cols), strategy_(strategy) {
+    : DeviceMatrix(std::move(device_of_matrix), matrix.rows(), matrix.cols),
+      strategy_(strategy),
+      narrow_(matrix.cols <= 65536) {
   const GlContext& context = *device().context();
   const CurrentContext current(context);
   for (Index first = 0; first < rows();) {
@@ -66,8 +68,15 @@ void CsrOnDevice::upload_block(const CsrMatrix<float>& matrix, Index first_row, 
   for (Index row = first_row; row <= end_row; ++row)
     row_begin.push_back(static_cast<std::uint32_t>(begin_of(matrix, row) - first));
   blocks_.push_back({first_row, end_row - first_row, buffer_of(context, matrix.value.data() + first, count),
-                     buffer_of(context, matrix.column.data() + first, count),
+                     upload_columns(matrix.column.data() + first, count),
                      buffer_of(context, row_begin.data(), row_begin.size())});
+}
+
+GlBuffer CsrOnDevice::upload_columns(const std::int32_t* columns, std::size_t count) const {
+  if (!narrow_) return buffer_of(device().context(), columns, count);
+  std::vector<std::uint16_t> narrow(columns, columns + count);
+  narrow.resize(count + count % 2);  // shaders read two at a time
+  return buffer_of(device().context(), narrow.data(), narrow.size());
 }
 
 ByteCount CsrOnDevice::bytes() const {
@@ -81,28 +90,37 @@ ByteCount CsrOnDevice::bytes() const {
 }
 
 void CsrOnDevice::dispatch(Index columns) const {
-  for (const Block& block : blocks_) {
-    block.values.bind(values_binding);
-    block.columns.bind(columns_binding);
-    block.row_begin.bind(row_begin_binding);
+  for (const Block& block : blocks_)
     for (Index first = 0; first < columns; first += device_columns_at_once)
-      dispatch_block(block, first, std::min(device_columns_at_once, columns - first));
-  }
+      dispatch_block(block, {first, std::min(device_columns_at_once, columns - first), 1, false});
 }
 
-void CsrOnDevice::dispatch_block(const Block& block, Index first_column, Index columns) const {
+void CsrOnDevice::dispatch_sum(Index first, Index step, Index columns) const {
+  for (const Block& block : blocks_)
+    for (Index column = first; column < columns; column += step * device_columns_at_once)
+      dispatch_block(block, {column, std::min(device_columns_at_once, (columns - column + step - 1) / step),
+                             step, true});
+}
+
+void CsrOnDevice::dispatch_block(const Block& block, const Task& task) const {
+  block.values.bind(values_binding);
+  block.columns.bind(columns_binding);
+  block.row_begin.bind(row_begin_binding);
   const RowSharing sharing = strategy_ == RowStrategy::group ? shared_rows : single_rows;
   const int rows_together = sharing.invocations / sharing.lanes;
   const GlProgram& program = device().program({"csr_rows.comp",
-                                               {{"COLUMNS", static_cast<int>(columns)},
+                                               {{"COLUMNS", static_cast<int>(task.columns)},
                                                 {"INVOCATIONS", sharing.invocations},
-                                                {"LANES", sharing.lanes}}});
+                                                {"LANES", sharing.lanes},
+                                                {"NARROW", narrow_ ? 1 : 0},
+                                                {"ADDS", task.adds ? 1 : 0}}});
   program.use();
   program.set("first_row", block.first_row);
   program.set("block_rows", block.rows);
   program.set("x_stride", FieldBuffers::padded(cols()));
   program.set("y_stride", FieldBuffers::padded(rows()));
-  program.set("first_column", first_column);
+  program.set("first_column", task.first_column);
+  program.set("column_step", task.step);
   program.dispatch((block.rows + rows_together - 1) / rows_together);
 }
 

@@ -3,12 +3,13 @@
 #include "gpu/device_matrix.hpp"
 #include "kernels/csr_matrix.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace radiosity {
 
-/// A sparse matrix by compressed rows on the device, in float32, split by rows where its entries take more
-/// than a storage block.
+/// A sparse matrix by compressed rows on the device, in float32 with columns in 16 bits up to 65536 of them,
+/// split by rows where its entries take more than a storage block.
 class CsrOnDevice final : public DeviceMatrix {
  public:
   /// Copies the matrix. Throws Error where a row does not fit into a storage block, or the matrix not into
@@ -16,6 +17,11 @@ class CsrOnDevice final : public DeviceMatrix {
   CsrOnDevice(std::shared_ptr<GlDevice> device, const CsrMatrix<float>& matrix, RowStrategy strategy);
 
   ByteCount bytes() const override;
+
+  /// Y += M X, both bound as FieldBuffers says, for the columns first, first + step, ... below `columns`: for
+  /// matrices that are a part of another.
+  void dispatch_sum(Index first, Index step, Index columns) const;
+
   /// Over how many storage blocks it is split.
   std::size_t blocks() const { return blocks_.size(); }
 
@@ -32,9 +38,18 @@ class CsrOnDevice final : public DeviceMatrix {
     GlBuffer row_begin;  ///< rows + 1 numbers, from the block's first entry on
   };
   void upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row);
-  void dispatch_block(const Block& block, Index first_column, Index columns) const;
+  GlBuffer upload_columns(const std::int32_t* columns, std::size_t count) const;
+  /// Of Y = M X, or Y += M X.
+  struct Task {
+    Index first_column;
+    Index columns;
+    Index step;
+    bool adds;
+  };
+  void dispatch_block(const Block& block, const Task& task) const;
 
   RowStrategy strategy_;
+  bool narrow_;  ///< columns in 16 bits
   std::vector<Block> blocks_;
 };
 

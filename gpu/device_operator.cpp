@@ -39,26 +39,4 @@ void DeviceMatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, doub
   add_product(alpha * reflectance_.array(), product, beta, Y);
 }
 
-DeviceColourOperator::DeviceColourOperator(const ColourOperator& original,
-                                           std::vector<std::unique_ptr<DeviceMatrix>> matrices,
-                                           DeviceOrigin origin)
-    : OnDevice(std::move(matrices), std::move(origin)),
-      reflectance_(original.reflectance()),
-      inverse_colours_(sender_colours(reflectance_).array().inverse()),
-      reflectances_(reflectance_),
-      global_(original.global()) {}
-
-void DeviceColourOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
-  Field scaled(X.rows(), X.cols());
-  add_product(inverse_colours_, X, 0, scaled);
-  const Field product =
-      reflectances_.multiply_each(scaled, size(), [&](Index distinct, const Field& fields, FieldRef images) {
-        matrix(distinct).multiply(fields, images);
-      });
-  if (!global_) return add_product(alpha * reflectance_.array(), product, beta, Y);
-  Field reflected(X.rows(), X.cols());
-  add_product(reflectance_.array(), product, 0, reflected);
-  add_answer(alpha, X, reflected, beta, Y);
-}
-
 }  // namespace radiosity

@@ -1,8 +1,6 @@
 #pragma once
 
 #include "gpu/device_matrix.hpp"
-#include "operators/colour_operator.hpp"
-#include "operators/distinct_reflectances.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -87,33 +85,6 @@ class DeviceMatrixOperator : public LinearOperator, public OnDevice {
 
  private:
   Eigen::MatrixXd reflectance_;
-};
-
-/// Document 000's R M C^-1, or E + R M C^-1 E where global (operators/colour_operator.hpp), with a matrix M
-/// for each distinct reflectance on the device.
-class DeviceColourOperator final : public LinearOperator, public OnDevice {
- public:
-  DeviceColourOperator(const ColourOperator& original, std::vector<std::unique_ptr<DeviceMatrix>> matrices,
-                       DeviceOrigin origin);
-
-  Index size() const override { return reflectance_.rows(); }
-  Index channels() const override { return reflectance_.cols(); }
-  bool global() const override { return global_; }
-  ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
-  std::string describe() const override { return origin().spec; }
-  std::string remark() const override { return origin().remark; }
-  double product_roundoff() const override { return 0x1p-24; }
-  Certificate certificate() const override { return origin().certificate; }
-  std::optional<DeviceUse> device_use() const override { return use(); }
-
- protected:
-  void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
-
- private:
-  Eigen::MatrixXd reflectance_;
-  Eigen::ArrayXXd inverse_colours_;  ///< 1 / c, n x channels
-  DistinctReflectances reflectances_;
-  bool global_;
 };
 
 }  // namespace radiosity

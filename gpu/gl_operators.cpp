@@ -2,7 +2,10 @@
 
 #include "gpu/upload.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace radiosity {
@@ -10,7 +13,8 @@ namespace {
 
 /// Of those that have rows to share out.
 std::optional<RowStrategy> take_strategy(Spec& spec) {
-  if (spec.name() != "dense" && spec.name() != "csr" && spec.name() != "bounces") return std::nullopt;
+  constexpr std::array<std::string_view, 4> names = {"dense", "csr", "bounces", "dxt"};
+  if (std::find(names.begin(), names.end(), spec.name()) == names.end()) return std::nullopt;
   const std::string strategy = spec.choice("strategy", "auto", {"auto", "group", "invocation"});
   if (strategy == "group") return RowStrategy::group;
   if (strategy == "invocation") return RowStrategy::invocation;

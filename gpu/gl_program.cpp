@@ -3,8 +3,8 @@
 #include "foundation/error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <epoxy/gl.h>
+#include <string_view>
 
 namespace radiosity {
 namespace {
@@ -38,17 +38,15 @@ void compile(GLuint shader, const std::string& file, const std::string& text) {
     fail("the shader {} does not compile: {}", file, log_of(shader, glGetShaderiv, glGetShaderInfoLog));
 }
 
-std::vector<std::pair<std::string, int>> uniforms_of(GLuint program) {
-  GLint count = 0;
-  glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+/// The uniforms that the text declares with their places: -1, which OpenGL ignores, where the variant does
+/// not read them.
+std::vector<std::pair<std::string, int>> uniforms_of(GLuint program, std::string_view text) {
+  constexpr std::string_view declaration = "uniform uint ";
   std::vector<std::pair<std::string, int>> uniforms;
-  for (GLint i = 0; i < count; ++i) {
-    std::array<char, 64> name{};
-    GLint size = 0;
-    GLenum type = 0;
-    glGetActiveUniform(program, static_cast<GLuint>(i), static_cast<GLsizei>(name.size()), nullptr, &size,
-                       &type, name.data());
-    uniforms.emplace_back(name.data(), glGetUniformLocation(program, name.data()));
+  for (auto at = text.find(declaration); at != std::string_view::npos; at = text.find(declaration)) {
+    text.remove_prefix(at + declaration.size());
+    const std::string name(text.substr(0, text.find(';')));
+    uniforms.emplace_back(name, glGetUniformLocation(program, name.c_str()));
   }
   return uniforms;
 }
@@ -74,7 +72,7 @@ GlProgram::GlProgram(std::shared_ptr<const GlContext> context, const std::string
     glDeleteProgram(name_);
     fail("the shader {} does not link: {}", file_, log);
   }
-  uniforms_ = uniforms_of(name_);
+  uniforms_ = uniforms_of(name_, text);
 }
 
 GlProgram::~GlProgram() {

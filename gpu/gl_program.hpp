@@ -23,7 +23,7 @@ class GlProgram {
 
   /// What set() and dispatch() mean until another program is used.
   void use() const;
-  /// Sets a uniform of type uint. Throws UsageError where the shader has none of that name.
+  /// Sets a uniform of type uint. Throws UsageError where the shader declares none of that name.
   void set(const char* uniform, std::int64_t value) const;
   /// At least `groups` work groups, numbered by group_index() of groups.glsl; groups > 0.
   void dispatch(std::int64_t groups) const;

@@ -6,10 +6,12 @@
 #include "foundation/stopwatch.hpp"
 #include "gpu/csr_on_device.hpp"
 #include "gpu/dense_on_device.hpp"
+#include "gpu/device_colour_operator.hpp"
 #include "gpu/device_factors_operator.hpp"
 #include "gpu/device_operator.hpp"
 #include "gpu/low_rank_on_device.hpp"
 #include "gpu/sparse_v_on_device.hpp"
+#include "gpu/texture_on_device.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "operators/sparse_v_operator.hpp"
 #include "operators/stored_matrix.hpp"
@@ -48,20 +50,17 @@ class Uploader {
     if (const auto* stored = dynamic_cast<const HasStoredMatrix*>(&original_))
       return with_diagonals(copy_stored(stored->stored()));
     if (const auto* stored = dynamic_cast<const HasStoredColours*>(&original_)) return copy_colours(*stored);
+    if (const auto* stored = dynamic_cast<const HasCompressedColours*>(&original_))
+      return copy_texture(*stored);
     if (const auto* factors = dynamic_cast<const LowRankOperator<float>*>(&original_))
-      return std::make_unique<DeviceFactorsOperator>(
-          *factors,
-          std::make_unique<LowRankOnDevice>(device_, factors->left_factor(), factors->right_factor()),
-          origin());
+      return with_factors<DeviceFactorsOperator, LowRankOnDevice>(*factors, factors->left_factor(),
+                                                                  factors->right_factor());
     if (const auto* factors = dynamic_cast<const SparseVOperator<float>*>(&original_))
-      return std::make_unique<DeviceFactorsOperator>(
-          *factors,
-          std::make_unique<SparseVOnDevice>(device_, factors->left_factor(), factors->right_factor()),
-          origin());
+      return with_factors<DeviceFactorsOperator, SparseVOnDevice>(*factors, factors->left_factor(),
+                                                                  factors->right_factor());
     if (const auto* factors = dynamic_cast<const LowRankKernelOperator<float>*>(&original_))
-      return std::make_unique<DeviceKernelFactorsOperator>(
-          *factors, std::make_unique<LowRankOnDevice>(device_, factors->factor(), factors->values()),
-          origin());
+      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, factors->factor(),
+                                                                        factors->values());
     refuse(original_.describe());
   }
 
@@ -75,11 +74,27 @@ class Uploader {
                                                   std::move(matrix), origin());
   }
 
+  template <typename Operator, typename Factors, typename Original, typename Left, typename Right>
+  std::unique_ptr<LinearOperator> with_factors(const Original& original, const Left& left,
+                                               const Right& right) const {
+    auto factors = std::make_unique<Factors>(device_, left, right);
+    return std::make_unique<Operator>(original, std::move(factors), origin());
+  }
+
+  std::unique_ptr<LinearOperator> copy_texture(const HasCompressedColours& stored) const {
+    const CompressedColours& compressed = stored.compressed_colours();
+    if (compressed.texture() == nullptr) refuse(original_.describe());
+    auto texture =
+        std::make_unique<TextureOnDevice>(device_, *compressed.texture(), compressed.exact(), strategy_);
+    return std::make_unique<DeviceTextureOperator>(dynamic_cast<const ColourOperator&>(original_),
+                                                   std::move(texture), compressed.order(), origin());
+  }
+
   std::unique_ptr<LinearOperator> copy_colours(const HasStoredColours& stored) const {
     std::vector<Copy> matrices;
     for (const StoredMatrix& matrix : stored.stored_colours()) matrices.push_back(copy_stored(matrix));
-    return std::make_unique<DeviceColourOperator>(dynamic_cast<const ColourOperator&>(original_),
-                                                  std::move(matrices), origin());
+    return std::make_unique<DeviceBouncesOperator>(dynamic_cast<const ColourOperator&>(original_),
+                                                   std::move(matrices), origin());
   }
 
   Copy copy_stored(const StoredMatrix& stored) const {
@@ -118,18 +133,6 @@ class Uploader {
   Stopwatch watch_;
 };
 
-/// The largest |difference| of a component of a product, relative to the largest component.
-double largest_difference(const LinearOperator& original, const LinearOperator& copy) {
-  RandomStream random(1);
-  const Field X = Field::NullaryExpr(original.size(), original.channels(), [&] { return random.uniform(); });
-  Field Y(X.rows(), X.cols());
-  Field Z(X.rows(), X.cols());
-  original.apply(X, Y);
-  copy.apply(X, Z);
-  const double largest = Y.size() == 0 ? 0 : Y.cwiseAbs().maxCoeff();
-  return largest == 0 ? 0 : (Z - Y).cwiseAbs().maxCoeff() / largest;
-}
-
 /// Both products are within 2 (n + 8) u |A| |X| of the true one; factors may have signs, whose terms cancel.
 double allowed_difference(const LinearOperator& original) {
   return std::max(4 * (static_cast<double>(original.size()) + 8) * 0x1p-24, 1e-4);
@@ -138,9 +141,9 @@ double allowed_difference(const LinearOperator& original) {
 }  // namespace
 
 const std::vector<std::string>& uploadable_specs() {
-  static const std::vector<std::string> specs = {"dense:f32", "dense:f16",    "csr:f32",   "svd:k=64",
-                                                 "rsvd:k=64", "qr:k=64",      "2msc:k=64", "sparse-v:k=64",
-                                                 "cur:k=64",  "wavelet:k=64", "dct:k=64",  "bounces:k=3"};
+  static const std::vector<std::string> specs = {
+      "dense:f32",     "dense:f16", "csr:f32",      "svd:k=64", "rsvd:k=64",   "qr:k=64",      "2msc:k=64",
+      "sparse-v:k=64", "cur:k=64",  "wavelet:k=64", "dct:k=64", "bounces:k=3", "dxt:codec=bc1"};
   return specs;
 }
 
@@ -152,14 +155,30 @@ void require_uploadable(const std::string& spec) {
     refuse(spec);
 }
 
+double compare_products(const LinearOperator& original, const LinearOperator& copy,
+                        const std::string& renderer) {
+  RandomStream random(1);
+  const Field X = Field::NullaryExpr(original.size(), original.channels(), [&] { return random.uniform(); });
+  Field Y(X.rows(), X.cols());
+  Field Z(X.rows(), X.cols());
+  original.apply(X, Y);
+  copy.apply(X, Z);
+  if (Y.size() == 0) return 0;
+  const double difference = (Z - Y).cwiseAbs().maxCoeff();
+  const double largest = Y.cwiseAbs().maxCoeff();
+  if (!(difference <= allowed_difference(original) * largest))
+    fail(
+        "{} on '{}' is off by {:.1e} of the CPU's product: its driver computes something else; use --device "
+        "cpu",
+        original.describe(), renderer, difference / largest);
+  return largest == 0 ? 0 : difference / largest;
+}
+
 std::unique_ptr<LinearOperator> upload(const std::shared_ptr<GlDevice>& device,
                                        const LinearOperator& original, std::optional<RowStrategy> strategy) {
   auto copy = Uploader(device, original, strategy).copy();
-  const double difference = largest_difference(original, *copy);
-  if (!(difference <= allowed_difference(original)))
-    fail("{} on '{}' differs from the CPU's by {:.1e}: its driver computes something else; use --device cpu",
-         original.describe(), device->context()->renderer(), difference);
-  dynamic_cast<OnDevice&>(*copy).set_difference(difference);
+  dynamic_cast<OnDevice&>(*copy).set_difference(
+      compare_products(original, *copy, device->context()->renderer()));
   return copy;
 }
 

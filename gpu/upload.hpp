@@ -18,6 +18,11 @@ std::unique_ptr<LinearOperator> upload(const std::shared_ptr<GlDevice>& device,
                                        const LinearOperator& original,
                                        std::optional<RowStrategy> strategy = {});
 
+/// The largest |difference| of a component of their products with a random field, relative to the largest
+/// component. Throws Error, naming the renderer, where it is more than the rounding of float32 products.
+double compare_products(const LinearOperator& original, const LinearOperator& copy,
+                        const std::string& renderer);
+
 /// What upload() takes, as specs: "dense:f32", "dense:f16", ...
 const std::vector<std::string>& uploadable_specs();
 

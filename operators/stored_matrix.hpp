@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compression/compressed_colours.hpp"
 #include "kernels/csr_matrix.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
@@ -29,6 +30,13 @@ class HasStoredColours {
  public:
   virtual ~HasStoredColours() = default;
   virtual std::vector<StoredMatrix> stored_colours() const = 0;
+};
+
+/// ... and of those that keep compressed ones.
+class HasCompressedColours {
+ public:
+  virtual ~HasCompressedColours() = default;
+  virtual const CompressedColours& compressed_colours() const = 0;
 };
 
 }  // namespace radiosity

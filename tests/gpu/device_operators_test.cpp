@@ -1,4 +1,6 @@
+#include "gpu/dense_on_device.hpp"
 #include "gpu/gl_operators.hpp"
+#include "gpu/upload.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "operators/operator_checks.hpp"
 #include "tests/conformance/transport_cases.hpp"
@@ -58,13 +60,22 @@ TEST_F(LimitedDevice, SplitsWhatIsLargerThanAStorageBlockAndGivesTheSameBits) {
   }
 }
 
+TEST_F(LimitedDevice, SplitsIntoAsManyBlocksAsItMust) {
+  const auto kernel = convert<float>(*random_room(300).kernel);
+  for (const auto& [strips, blocks] : {std::pair{1, 5}, {2, 3}, {4, 2}, {5, 1}})
+    EXPECT_EQ(DenseOnDevice<float>(device_with_blocks_of(strips * 64 * 320 * 4), kernel, RowStrategy::group)
+                  .blocks(),
+              static_cast<std::size_t>(blocks));
+}
+
 TEST_F(LimitedDevice, SplitsFactorsAndSparseMatricesToo) {
   constexpr Index n = 300;  // five panels of 64 rows, each of 2048 bytes with k = 8
   const FormFactors form_factors = random_room(n);
   const Field X = Field::Random(n, 5);
   const auto whole = gl_operators(device(), cpu_operators());
   const auto split = gl_operators(device_with_blocks_of(2 * 2048), cpu_operators());
-  for (const char* spec : {"svd:k=8", "svd:k=8,norm=area,method=lanczos", "sparse-v:k=8", "csr:f32"}) {
+  for (const char* spec :
+       {"svd:k=8", "svd:k=8,norm=area,method=lanczos", "sparse-v:k=8", "csr:f32", "dxt:reorder=none"}) {
     Field Y(n, 5);
     Field Z(n, 5);
     whole.make(spec, form_factors)->apply(X, Y);
@@ -111,6 +122,26 @@ TEST_F(DeviceUses, OfOperatorsWithoutAFormForTheDeviceAreRefusedWithAListOfThose
     }
 }
 
+/// A device that loses one entry of 130 x 130 is found out by the comparison with its original.
+TEST(CompareProducts, RefusesACopyThatComputesSomethingElse) {
+  const Index n = 130;
+  Eigen::MatrixXd kernel = random_kernel(n, 7);
+  const Eigen::VectorXd area = Eigen::VectorXd::Ones(n);
+  const Eigen::MatrixXd reflectance = Eigen::MatrixXd::Constant(n, 1, 0.7);
+  const auto original = cpu_operators().make("dense:f32", symmetric_form_factors(kernel, area, reflectance));
+  const auto rounded = cpu_operators().make("dense", symmetric_form_factors(kernel, area, reflectance));
+  EXPECT_LT(compare_products(*original, *rounded, "a device"), n * 0x1p-24);
+  kernel(3, 5) = kernel(5, 3) += 0.5 / static_cast<double>(n);
+  const auto wrong = cpu_operators().make("dense:f32", symmetric_form_factors(kernel, area, reflectance));
+  try {
+    compare_products(*original, *wrong, "a device");
+    ADD_FAILURE() << "it was not noticed";
+  } catch (const Error& error) {
+    for (const char* part : {"dense:f32", "a device", "--device cpu"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
 std::string spec_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   for (char& c : name)
@@ -119,16 +150,27 @@ std::string spec_name(const testing::TestParamInfo<std::string>& info) {
 }
 
 /// Operators that are made of approximations: the plain reference is the CPU's operator, entry by entry.
-class DeviceCopies : public DeviceOperators {};
+class DeviceCopies : public DeviceOperators {
+ protected:
+  /// The keys at the end of a spec that only devices know.
+  static std::string strategy() {
+    const std::size_t begin = GetParam().find(",strategy=");
+    return begin == std::string::npos ? "" : GetParam().substr(begin);
+  }
+  static std::string without_strategy(const std::string& spec) {
+    return spec.substr(0, spec.size() - strategy().size());
+  }
+  static std::string with_strategy(const std::string& spec) { return spec + strategy(); }
+};
 
 TEST_P(DeviceCopies, MultiplyAsTheOperatorThatTheyAreCopiesOf) {
   for (const Index n : {1, 70})
     for (const TransportCase& data : transport_cases(n)) {
       if (!data.form_factors.symmetric() && GetParam().find("norm=area") != std::string::npos) continue;
       SCOPED_TRACE(data.name);
-      const auto original = cpu_operators().make(GetParam(), data.form_factors);
+      const auto original = cpu_operators().make(without_strategy(GetParam()), data.form_factors);
       const auto copy = registry().make(GetParam(), data.form_factors);
-      EXPECT_EQ(copy->describe(), original->describe());
+      EXPECT_EQ(copy->describe(), with_strategy(original->describe()));
       EXPECT_EQ(copy->symmetric(), original->symmetric());
       EXPECT_EQ(copy->global(), original->global());
       EXPECT_EQ(check_operator(*copy, own_entries(*original)), "");
@@ -155,6 +197,12 @@ INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
                          spec_name);
 INSTANTIATE_TEST_SUITE_P(Bounces, DeviceCopies,
                          testing::Values("bounces:k=3,storage=f32", "bounces:k=2,storage=f16"), spec_name);
+
+INSTANTIATE_TEST_SUITE_P(Textures, DeviceCopies,
+                         testing::Values("dxt:reorder=rows,strategy=group",
+                                         "dxt:reorder=rows,strategy=invocation",
+                                         "dxt:bounces=3,reorder=none,map=linear"),
+                         spec_name);
 
 }  // namespace
 }  // namespace radiosity

@@ -15,7 +15,14 @@ inline std::vector<ShaderVariant> shader_variants() {
     variants.push_back({"dense_invocation.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 64}}});
   }
   for (const int lanes : {1, 32})
-    variants.push_back({"csr_rows.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}}});
+    for (const int present : {0, 1}) {
+      variants.push_back(
+          {"csr_rows.comp",
+           {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}, {"NARROW", present}, {"ADDS", present}}});
+      variants.push_back(
+          {"texture_product.comp",
+           {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
+    }
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
   for (const int present : {0, 1}) {
     variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
