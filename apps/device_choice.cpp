@@ -24,6 +24,8 @@ std::shared_ptr<GlDevice> open_device(const RunOptions& options) {
   // A driver that is not there would be reported in Mesa's words as well; who wants them sets the variable.
   constexpr int keep = 0;
   ::setenv("EGL_LOG_LEVEL", "fatal", keep);
+  if (options.threads > 0)
+    ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), keep);  // llvmpipe
   return GlDevice::open();
 }
 

@@ -55,7 +55,9 @@ struct ComparisonResult {
   std::size_t bytes = 0;
   double build_seconds = 0;
   std::optional<DeviceUse> device;  ///< empty: the CPU
-  Timing apply;                     ///< one product with n x channels
+  double device_apply_seconds =
+      0;         ///< of the device in a product, fields on their way not included; the mean
+  Timing apply;  ///< one product with n x channels
   Timing solve;  ///< one light, over the lights; a solver that factors shows it in its first one
   ComparisonErrors errors;
   std::optional<double> row_sum_min;  ///< of its F, over live patches; empty for operators that map E to B

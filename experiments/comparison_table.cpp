@@ -36,10 +36,11 @@ std::string ratio_text(const ComparisonResult& result) {
 
 std::string device_text(const ComparisonResult& result) {
   const DeviceUse& device = *result.device;
-  return fmt::format("{}: on {}{}, sent in {}, at most {} from the CPU's product\n", result.spec,
+  return fmt::format("{}: on {}{}, sent in {}, {} a product, at most {} from the CPU's\n", result.spec,
                      device.renderer,
                      device.software ? " (a software renderer, which computes on the CPU)" : "",
-                     time_text(device.upload_seconds), error_text(device.difference_max));
+                     time_text(device.upload_seconds), time_text(result.device_apply_seconds),
+                     error_text(device.difference_max));
 }
 
 }  // namespace

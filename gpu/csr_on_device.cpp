@@ -19,6 +19,19 @@ struct RowSharing {
 constexpr RowSharing shared_rows{128, 32};
 constexpr RowSharing single_rows{64, 1};
 
+const RowSharing& sharing_of(RowStrategy strategy) {
+  return strategy == RowStrategy::group ? shared_rows : single_rows;
+}
+
+ShaderFamily shaders_of_rows(RowStrategy strategy, bool narrow, bool adds) {
+  const RowSharing& sharing = sharing_of(strategy);
+  return {"csr_rows.comp",
+          {{"INVOCATIONS", sharing.invocations},
+           {"LANES", sharing.lanes},
+           {"NARROW", narrow ? 1 : 0},
+           {"ADDS", adds ? 1 : 0}}};
+}
+
 std::int64_t begin_of(const CsrMatrix<float>& matrix, Index row) {
   return matrix.row_begin[static_cast<std::size_t>(row)];
 }
@@ -49,7 +62,9 @@ CsrOnDevice::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMa
                          RowStrategy strategy)
     : DeviceMatrix(std::move(device_of_matrix), matrix.rows(), matrix.cols),
       strategy_(strategy),
-      narrow_(matrix.cols <= 65536) {
+      narrow_(matrix.cols <= 65536),
+      product_(shaders_of_rows(strategy, narrow_, false)),
+      sum_(shaders_of_rows(strategy, narrow_, true)) {
   const GlContext& context = *device().context();
   const CurrentContext current(context);
   for (Index first = 0; first < rows();) {
@@ -90,38 +105,29 @@ ByteCount CsrOnDevice::bytes() const {
 }
 
 void CsrOnDevice::dispatch(Index columns) const {
-  for (const Block& block : blocks_)
-    for (Index first = 0; first < columns; first += device_columns_at_once)
-      dispatch_block(block, {first, std::min(device_columns_at_once, columns - first), 1, false});
+  dispatch_rows(product_, 0, 1, columns);
 }
 
 void CsrOnDevice::dispatch_sum(Index first, Index step, Index columns) const {
-  for (const Block& block : blocks_)
-    for (Index column = first; column < columns; column += step * device_columns_at_once)
-      dispatch_block(block, {column, std::min(device_columns_at_once, (columns - column + step - 1) / step),
-                             step, true});
+  dispatch_rows(sum_, first, step, (columns - first + step - 1) / step);
 }
 
-void CsrOnDevice::dispatch_block(const Block& block, const Task& task) const {
-  block.values.bind(values_binding);
-  block.columns.bind(columns_binding);
-  block.row_begin.bind(row_begin_binding);
-  const RowSharing sharing = strategy_ == RowStrategy::group ? shared_rows : single_rows;
-  const int rows_together = sharing.invocations / sharing.lanes;
-  const GlProgram& program = device().program({"csr_rows.comp",
-                                               {{"COLUMNS", static_cast<int>(task.columns)},
-                                                {"INVOCATIONS", sharing.invocations},
-                                                {"LANES", sharing.lanes},
-                                                {"NARROW", narrow_ ? 1 : 0},
-                                                {"ADDS", task.adds ? 1 : 0}}});
-  program.use();
-  program.set("first_row", block.first_row);
-  program.set("block_rows", block.rows);
-  program.set("x_stride", FieldBuffers::padded(cols()));
-  program.set("y_stride", FieldBuffers::padded(rows()));
-  program.set("first_column", task.first_column);
-  program.set("column_step", task.step);
-  program.dispatch((block.rows + rows_together - 1) / rows_together);
+void CsrOnDevice::dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const {
+  const Index rows_together = sharing_of(strategy_).invocations / sharing_of(strategy_).lanes;
+  for (const Block& block : blocks_) {
+    block.values.bind(values_binding);
+    block.columns.bind(columns_binding);
+    block.row_begin.bind(row_begin_binding);
+    shaders.for_columns(device(), count, [&](const GlProgram& program, Index column) {
+      program.set("first_row", block.first_row);
+      program.set("block_rows", block.rows);
+      program.set("x_stride", FieldBuffers::padded(cols()));
+      program.set("y_stride", FieldBuffers::padded(rows()));
+      program.set("first_column", first + step * column);
+      program.set("column_step", step);
+      program.dispatch((block.rows + rows_together - 1) / rows_together);
+    });
+  }
 }
 
 }  // namespace radiosity

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/device_matrix.hpp"
+#include "gpu/shader_family.hpp"
 #include "kernels/csr_matrix.hpp"
 
 #include <cstdint>
@@ -39,17 +40,13 @@ class CsrOnDevice final : public DeviceMatrix {
   };
   void upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row);
   GlBuffer upload_columns(const std::int32_t* columns, std::size_t count) const;
-  /// Of Y = M X, or Y += M X.
-  struct Task {
-    Index first_column;
-    Index columns;
-    Index step;
-    bool adds;
-  };
-  void dispatch_block(const Block& block, const Task& task) const;
+  /// For `count` columns first, first + step, ...
+  void dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const;
 
   RowStrategy strategy_;
   bool narrow_;  ///< columns in 16 bits
+  ShaderFamily product_;
+  ShaderFamily sum_;  ///< Y += M X
   std::vector<Block> blocks_;
 };
 

@@ -14,6 +14,15 @@ constexpr unsigned entries_binding = 0;
 constexpr int rows_of_group = 4;
 constexpr int invocations_of_group = 128;
 
+template <typename Scalar>
+ShaderFamily shaders_for(RowStrategy strategy) {
+  const int half = std::is_same_v<Scalar, Half> ? 1 : 0;
+  if (strategy == RowStrategy::group)
+    return {"dense_group.comp",
+            {{"HALF", half}, {"ROWS", rows_of_group}, {"INVOCATIONS", invocations_of_group}}};
+  return {"dense_invocation.comp", {{"HALF", half}, {"ROWS", static_cast<int>(strip_rows)}}};
+}
+
 /// How many strips of `strip_bytes` fit into a storage block. Throws Error if none does.
 Index strips_of_block(const GlContext& context, Index strip_bytes) {
   const std::int64_t limit = context.limits().storage_block_bytes;
@@ -48,7 +57,8 @@ DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const Sym
     : DeviceMatrix(std::move(device), kernel.size(), kernel.size()),
       stride_(FieldBuffers::padded(kernel.size())),
       scale_(kernel.scale()),
-      strategy_(strategy) {
+      strategy_(strategy),
+      shaders_(shaders_for<Scalar>(strategy)) {
   std::vector<Scalar> strip(static_cast<std::size_t>(strip_rows * stride_));
   upload([&](Index first_row) {
     copy_tile_row(kernel, first_row / strip_rows, stride_, strip.data());
@@ -62,7 +72,8 @@ DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const Row
     : DeviceMatrix(std::move(device), matrix.rows(), matrix.cols()),
       stride_(matrix.stride()),
       scale_(matrix.scale()),
-      strategy_(strategy) {
+      strategy_(strategy),
+      shaders_(shaders_for<Scalar>(strategy)) {
   std::vector<Scalar> strip(static_cast<std::size_t>(strip_rows * stride_));
   upload([&](Index first_row) {
     const Index present = std::min(strip_rows, rows() - first_row);
@@ -99,29 +110,18 @@ ByteCount DenseOnDevice<Scalar>::bytes() const {
 
 template <typename Scalar>
 void DenseOnDevice<Scalar>::dispatch(Index columns) const {
+  const Index rows_together = strategy_ == RowStrategy::group ? rows_of_group : strip_rows;
   for (const Block& block : blocks_) {
     block.entries.bind(entries_binding);
-    for (Index first = 0; first < columns; first += device_columns_at_once)
-      dispatch_block(block, first, std::min(device_columns_at_once, columns - first));
+    shaders_.for_columns(device(), columns, [&](const GlProgram& program, Index first_column) {
+      program.set("row_quads", stride_ / 4);
+      program.set("first_row", block.first_row);
+      program.set("block_rows", block.rows);
+      program.set("y_stride", FieldBuffers::padded(rows()));
+      program.set("first_column", first_column);
+      program.dispatch(block.rows / rows_together);
+    });
   }
-}
-
-template <typename Scalar>
-void DenseOnDevice<Scalar>::dispatch_block(const Block& block, Index first_column, Index columns) const {
-  const bool in_groups = strategy_ == RowStrategy::group;
-  ShaderVariant variant{in_groups ? "dense_group.comp" : "dense_invocation.comp",
-                        {{"COLUMNS", static_cast<int>(columns)},
-                         {"HALF", std::is_same_v<Scalar, Half> ? 1 : 0},
-                         {"ROWS", in_groups ? rows_of_group : static_cast<int>(strip_rows)}}};
-  if (in_groups) variant.defines.emplace_back("INVOCATIONS", invocations_of_group);
-  const GlProgram& program = device().program(variant);
-  program.use();
-  program.set("row_quads", stride_ / 4);
-  program.set("first_row", block.first_row);
-  program.set("block_rows", block.rows);
-  program.set("y_stride", FieldBuffers::padded(rows()));
-  program.set("first_column", first_column);
-  program.dispatch(block.rows / (in_groups ? rows_of_group : strip_rows));
 }
 
 template class DenseOnDevice<float>;

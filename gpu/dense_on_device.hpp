@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/device_matrix.hpp"
+#include "gpu/shader_family.hpp"
 #include "kernels/half.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
@@ -37,11 +38,11 @@ class DenseOnDevice final : public DeviceMatrix {
   };
   template <typename ReadStrip>
   void upload(const ReadStrip& read_strip);
-  void dispatch_block(const Block& block, Index first_column, Index columns) const;
 
   Index stride_;
   double scale_;
   RowStrategy strategy_;
+  ShaderFamily shaders_;
   std::vector<Block> blocks_;
 };
 

@@ -52,7 +52,4 @@ class DeviceMatrix {
   mutable std::atomic<double> device_seconds_{0};
 };
 
-/// Columns that a shader multiplies with each number that it reads; more take further dispatches.
-constexpr Index device_columns_at_once = 4;
-
 }  // namespace radiosity

@@ -14,15 +14,21 @@ GlTimer::~GlTimer() {
   glDeleteQueries(1, &name_);
 }
 
-GlTimer::Measurement::Measurement(GlTimer& timer) {
-  glBeginQuery(GL_TIME_ELAPSED, timer.name_);
+GlTimer::Measurement::Measurement(GlTimer& timer) : timer_(timer) {
+  if (!timer_.context_->software()) glBeginQuery(GL_TIME_ELAPSED, timer_.name_);
 }
 
 GlTimer::Measurement::~Measurement() {
-  glEndQuery(GL_TIME_ELAPSED);
+  if (timer_.context_->software()) {
+    glFinish();
+    timer_.wall_seconds_ = watch_.seconds();
+  } else {
+    glEndQuery(GL_TIME_ELAPSED);
+  }
 }
 
 double GlTimer::seconds() const {
+  if (context_->software()) return wall_seconds_;
   GLuint64 nanoseconds = 0;
   glGetQueryObjectui64v(name_, GL_QUERY_RESULT, &nanoseconds);
   return 1e-9 * static_cast<double>(nanoseconds);

@@ -46,7 +46,9 @@ void LowRankOnDevice::dispatch_right(Index columns) const {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
   if (values_) values_->bind(values_of_rank_binding);
-  const GlProgram& program = device().program({"sum_chunks.comp", {{"SCALED", values_ ? 1 : 0}}});
+  if (sum_chunks_ == nullptr)
+    sum_chunks_ = &device().program({"sum_chunks.comp", {{"SCALED", values_ ? 1 : 0}}});
+  const GlProgram& program = *sum_chunks_;
   program.use();
   program.set("chunks", right().chunks());
   program.set("rank", rank());

@@ -21,7 +21,7 @@ class LowRankOnDevice final : public FactorsOnDevice {
   std::size_t right_bytes() const override { return right().bytes(); }
 
  protected:
-  void dispatch_left(Index columns) const override { left_.multiply(columns, false); }
+  void dispatch_left(Index columns) const override { left_.multiply(columns); }
   void dispatch_right(Index columns) const override;
   double left_scale() const override { return left_.scale(); }
   double right_scale() const override { return right().scale() * values_scale_; }
@@ -33,7 +33,8 @@ class LowRankOnDevice final : public FactorsOnDevice {
   std::optional<TallOnDevice> right_;  ///< the left one where it is empty
   std::optional<GlBuffer> values_;
   double values_scale_ = 1;
-  mutable GrowingBuffer sums_;  ///< over chunks of rows
+  mutable const GlProgram* sum_chunks_ = nullptr;  ///< the device's
+  mutable GrowingBuffer sums_;                     ///< over chunks of rows
 };
 
 }  // namespace radiosity

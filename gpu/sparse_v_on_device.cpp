@@ -33,9 +33,11 @@ GlBuffer buffer_of_list(const std::shared_ptr<GlDevice>& device, const std::vect
 SparseVOnDevice::SparseVOnDevice(std::shared_ptr<GlDevice> device_of_factors, const TallMatrix<float>& U,
                                  const Segments& V)
     : FactorsOnDevice(device_of_factors, U.rows(), U.columns()),
-      left_(device_of_factors, U),
+      left_(device_of_factors, U, !V.order().empty()),
       offsets_(buffer_of_list(device_of_factors,
-                              std::vector<std::uint32_t>(V.offsets().begin(), V.offsets().end()))) {
+                              std::vector<std::uint32_t>(V.offsets().begin(), V.offsets().end()))),
+      segment_sums_("segment_sums.comp",
+                    {{"ORDERED", V.order().empty() ? 0 : 1}, {"WEIGHTED", V.weights().empty() ? 0 : 1}}) {
   if (!V.order().empty()) order_.emplace(buffer_of_list(device_of_factors, V.order()));
   if (V.weights().empty()) return;
   double largest = 0;
@@ -60,26 +62,20 @@ ByteCount SparseVOnDevice::bytes() const {
 
 void SparseVOnDevice::dispatch_left(Index columns) const {
   if (order_) order_->bind(TallOnDevice::order_binding);
-  left_.multiply(columns, order_.has_value());
+  left_.multiply(columns);
 }
 
 void SparseVOnDevice::dispatch_right(Index columns) const {
   offsets_.bind(segment_offsets_binding);
   if (order_) order_->bind(TallOnDevice::order_binding);
   if (weights_) weights_->bind(segment_weights_binding);
-  for (Index first = 0; first < columns; first += device_columns_at_once) {
-    const Index together = std::min(device_columns_at_once, columns - first);
-    const GlProgram& program = device().program({"segment_sums.comp",
-                                                 {{"COLUMNS", static_cast<int>(together)},
-                                                  {"ORDERED", order_ ? 1 : 0},
-                                                  {"WEIGHTED", weights_ ? 1 : 0}}});
-    program.use();
+  segment_sums_.for_columns(device(), columns, [&](const GlProgram& program, Index first_column) {
     program.set("segments", rank());
     program.set("x_stride", FieldBuffers::padded(cols()));
     program.set("sum_stride", FieldBuffers::padded(rank()));
-    program.set("first_column", first);
+    program.set("first_column", first_column);
     program.dispatch(rank());
-  }
+  });
 }
 
 }  // namespace radiosity

@@ -30,6 +30,7 @@ class SparseVOnDevice final : public FactorsOnDevice {
   std::optional<GlBuffer> order_;    ///< empty: rows are sorted already
   std::optional<GlBuffer> weights_;  ///< empty: all 1
   double weight_scale_ = 1;
+  ShaderFamily segment_sums_;
 };
 
 }  // namespace radiosity

@@ -1,7 +1,6 @@
 #include "gpu/tall_on_device.hpp"
 
 #include "foundation/error.hpp"
-#include "gpu/device_matrix.hpp"
 
 #include <algorithm>
 
@@ -19,8 +18,13 @@ Index chunks_of(Index panels) {
 
 }  // namespace
 
-TallOnDevice::TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix)
-    : device_(std::move(device)), rows_(matrix.rows()), columns_(matrix.columns()), scale_(matrix.scale()) {
+TallOnDevice::TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, bool ordered)
+    : device_(std::move(device)),
+      rows_(matrix.rows()),
+      columns_(matrix.columns()),
+      scale_(matrix.scale()),
+      product_("tall_product.comp", {{"ORDERED", ordered ? 1 : 0}}),
+      transposed_("tall_transposed.comp", {}) {
   const GlContext& context = *device_->context();
   const CurrentContext current(context);
   const Index panel_bytes = panel_rows * std::max<Index>(columns_, 1) * static_cast<Index>(sizeof(float));
@@ -54,23 +58,19 @@ Index TallOnDevice::chunks() const {
   return chunks;
 }
 
-void TallOnDevice::multiply(Index columns, bool ordered) const {
+void TallOnDevice::multiply(Index columns) const {
   for (const Block& block : blocks_) {
     block.entries.bind(panels_binding);
-    for (Index first = 0; first < columns; first += device_columns_at_once) {
-      const Index together = std::min(device_columns_at_once, columns - first);
-      const GlProgram& program = device_->program(
-          {"tall_product.comp", {{"COLUMNS", static_cast<int>(together)}, {"ORDERED", ordered ? 1 : 0}}});
-      program.use();
+    product_.for_columns(*device_, columns, [&](const GlProgram& program, Index first_column) {
       program.set("rank", columns_);
       program.set("rows", rows_);
       program.set("first_panel", block.first_panel);
       program.set("block_panels", block.panels);
       program.set("x_stride", FieldBuffers::padded(columns_));
       program.set("y_stride", FieldBuffers::padded(rows_));
-      program.set("first_column", first);
+      program.set("first_column", first_column);
       program.dispatch(block.panels);
-    }
+    });
   }
 }
 
@@ -79,11 +79,7 @@ void TallOnDevice::multiply_transposed(Index columns) const {
   Index first_chunk = 0;
   for (const Block& block : blocks_) {
     block.entries.bind(panels_binding);
-    for (Index first = 0; first < columns; first += device_columns_at_once) {
-      const Index together = std::min(device_columns_at_once, columns - first);
-      const GlProgram& program =
-          device_->program({"tall_transposed.comp", {{"COLUMNS", static_cast<int>(together)}}});
-      program.use();
+    transposed_.for_columns(*device_, columns, [&](const GlProgram& program, Index first_column) {
       program.set("rank", columns_);
       program.set("first_panel", block.first_panel);
       program.set("block_panels", block.panels);
@@ -92,9 +88,9 @@ void TallOnDevice::multiply_transposed(Index columns) const {
       program.set("columns", columns);
       program.set("x_stride", FieldBuffers::padded(rows_));
       program.set("sum_stride", FieldBuffers::padded(columns_));
-      program.set("first_column", first);
+      program.set("first_column", first_column);
       program.dispatch(chunks_of(block.panels) * columns_);
-    }
+    });
     first_chunk += chunks_of(block.panels);
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gpu/gl_device.hpp"
+#include "gpu/shader_family.hpp"
 #include "kernels/tall_matrix.hpp"
 
 #include <cstdint>
@@ -17,17 +17,17 @@ class TallOnDevice {
   static constexpr unsigned partial_binding = 3;
   static constexpr unsigned order_binding = 5;
 
-  /// Throws Error where a panel does not fit into a storage block, or the factor not into the device.
-  TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix);
+  /// `ordered`: row e of products goes to row order[e] of Y, with that list bound to order_binding. Throws
+  /// Error where a panel does not fit into a storage block, or the factor not into the device.
+  TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, bool ordered = false);
 
   Index rows() const { return rows_; }
   Index columns() const { return columns_; }
   double scale() const { return scale_; }
   std::size_t bytes() const;
 
-  /// Y = M C: coefficients are bound as X, the field as Y, both for FieldBuffers' bindings. `ordered`: row e
-  /// of the product goes to row order[e] of Y, with that list bound to order_binding. Without scale().
-  void multiply(Index columns, bool ordered) const;
+  /// Y = M C: coefficients are bound as X, the field as Y, both for FieldBuffers' bindings. Without scale().
+  void multiply(Index columns) const;
 
   /// Sums of M' X, X bound as FieldBuffers' X, over chunks() of rows, which are bound to partial_binding: sum
   /// p of column c and chunk i is number (i columns + c) padded(k) + p. Without scale().
@@ -46,6 +46,8 @@ class TallOnDevice {
   Index columns_;
   double scale_;
   std::vector<Block> blocks_;
+  ShaderFamily product_;
+  ShaderFamily transposed_;
 };
 
 }  // namespace radiosity

@@ -17,6 +17,11 @@ constexpr unsigned tables_binding = 3;
 constexpr int invocations_of_texture_group = 64;
 constexpr std::size_t table_numbers = std::size_t{3} * texture_table;
 
+/// Invocations that share a row of blocks.
+int lanes_of(RowStrategy strategy) {
+  return strategy == RowStrategy::group ? invocations_of_texture_group : 1;
+}
+
 /// Above every channel's scale and every exact entry, so that in float32 all of them are below 1.
 double common_scale(const ColourTexture& texture, const std::vector<CsrMatrix<float>>& exact) {
   double largest = 0;
@@ -46,7 +51,6 @@ TextureOnDevice::TextureOnDevice(std::shared_ptr<GlDevice> device_of_texture, co
     : DeviceMatrix(device_of_texture, texture.rows(), texture.columns()),
       channels_(texture.channels()),
       block_columns_(texture.block_columns()),
-      logarithmic_(texture.curve().logarithmic),
       strategy_(strategy),
       tables_(empty_tables(device_of_texture->context())) {
   std::vector<CsrMatrix<float>> matrices = compressed_rows(exact);
@@ -54,6 +58,11 @@ TextureOnDevice::TextureOnDevice(std::shared_ptr<GlDevice> device_of_texture, co
   const CurrentContext current(*device().context());
   upload_blocks(texture);
   upload_tables(texture);
+  program_ = &device().program({"texture_product.comp",
+                                {{"CHANNELS", texture.channels()},
+                                 {"LOGARITHMIC", texture.curve().logarithmic ? 1 : 0},
+                                 {"INVOCATIONS", invocations_of_texture_group},
+                                 {"LANES", lanes_of(strategy)}}});
   for (CsrMatrix<float>& matrix : matrices) {
     // A power of two: nothing is lost.
     for (float& value : matrix.value) value = static_cast<float>(static_cast<double>(value) / scale_);
@@ -111,13 +120,8 @@ void TextureOnDevice::dispatch(Index columns) const {
 void TextureOnDevice::dispatch_part(const Part& part, Index first_column) const {
   part.blocks.bind(blocks_binding);
   tables_.bind(tables_binding);
-  const int lanes = strategy_ == RowStrategy::group ? invocations_of_texture_group : 1;
-  const Index rows_together = invocations_of_texture_group / lanes;
-  const GlProgram& program = device().program({"texture_product.comp",
-                                               {{"CHANNELS", static_cast<int>(channels_)},
-                                                {"LOGARITHMIC", logarithmic_ ? 1 : 0},
-                                                {"INVOCATIONS", invocations_of_texture_group},
-                                                {"LANES", lanes}}});
+  const Index rows_together = invocations_of_texture_group / lanes_of(strategy_);
+  const GlProgram& program = *program_;
   program.use();
   program.set("block_columns", block_columns_);
   program.set("first_block_row", part.first_block_row);

@@ -39,9 +39,9 @@ class TextureOnDevice final : public DeviceMatrix {
 
   Index channels_;
   Index block_columns_;
-  bool logarithmic_;
   double scale_;
   RowStrategy strategy_;
+  const GlProgram* program_ = nullptr;  ///< the device's
   std::vector<Part> parts_;
   GlBuffer tables_;  ///< of ColourTexture, and the part that each channel's scale is of scale()
   std::vector<std::unique_ptr<CsrOnDevice>> exact_;

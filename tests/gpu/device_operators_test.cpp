@@ -112,6 +112,20 @@ TEST_F(DeviceUses, AreToldByTheOperatorAndByWhatIsWrappedAroundIt) {
   EXPECT_FALSE(cpu_operators().make("dense:f32", random_room(70))->device_use().has_value());
 }
 
+TEST_F(DeviceUses, TakeAFairPartOfTheTimeOfALargeProduct) {
+  constexpr Index n = 1000;
+  const auto transport = gl_operators(device(), cpu_operators()).make("dense:f32", random_room(n));
+  const Field X = Field::Random(n, 4);
+  Field Y(n, 4);
+  const double device_before = transport->device_use()->device_seconds;
+  const double all_before = transport->usage().seconds;
+  for (int repetition = 0; repetition < 3; ++repetition) transport->apply(X, Y);
+  const double on_device = transport->device_use()->device_seconds - device_before;
+  const double in_all = transport->usage().seconds - all_before;
+  EXPECT_LT(on_device, in_all);
+  EXPECT_GT(on_device, 0.05 * in_all);
+}
+
 TEST_F(DeviceUses, OfOperatorsWithoutAFormForTheDeviceAreRefusedWithAListOfThoseThatHaveOne) {
   const auto registry = gl_operators(device(), cpu_operators());
   for (const char* spec : {"topk", "dense", "dense:f64"}) try {
