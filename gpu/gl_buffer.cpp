@@ -24,9 +24,7 @@ GlBuffer::GlBuffer(GlBuffer&& other) noexcept
     : context_(std::move(other.context_)), name_(std::exchange(other.name_, 0)), bytes_(other.bytes_) {}
 
 GlBuffer::~GlBuffer() {
-  if (name_ == 0) return;
-  const CurrentContext current(*context_);
-  glDeleteBuffers(1, &name_);
+  if (name_ != 0) context_->when_current([this] { glDeleteBuffers(1, &name_); });
 }
 
 void GlBuffer::write(std::size_t offset, std::size_t bytes, const void* data) {

@@ -96,7 +96,7 @@ const char* error_name(GLenum error) {
 std::shared_ptr<GlContext> GlContext::open(const GlContextOptions& options) {
   if (const std::string missing = missing_gl_library(options.libraries); !missing.empty())
     throw Error(missing);
-  const std::shared_ptr<GlContext> result(new GlContext);
+  std::shared_ptr<GlContext> result(new GlContext);
   for (const EglDisplay& display : egl_displays()) {
     result->context_ = open_on(display, options.debug);
     if (result->context_ == EGL_NO_CONTEXT) continue;
@@ -154,31 +154,33 @@ void GlContext::check(const std::string& work) const {
   if (error != GL_NO_ERROR) fail("{}: OpenGL ('{}') reports: {}", work, renderer_, error_name(error));
 }
 
-void GlContext::acquire() const {
+bool GlContext::try_acquire() const noexcept {
   mutex_.lock();
   if (depth_ == 0) {
     eglBindAPI(EGL_OPENGL_API);  // of this thread: without it the context could not be released
     if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
       mutex_.unlock();
-      fail("the OpenGL context of '{}' cannot be used on this thread (EGL error {:#x})", renderer_,
-           static_cast<unsigned>(eglGetError()));
+      return false;
     }
   }
   ++depth_;
+  return true;
 }
 
-void GlContext::release() const {
+void GlContext::leave() const noexcept {
   --depth_;
   if (depth_ == 0) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   mutex_.unlock();
 }
 
 CurrentContext::CurrentContext(const GlContext& context) : context_(context) {
-  context_.acquire();
+  if (!context_.try_acquire())
+    fail("the OpenGL context of '{}' cannot be used on this thread (EGL error {:#x})", context_.renderer(),
+         static_cast<unsigned>(eglGetError()));
 }
 
 CurrentContext::~CurrentContext() {
-  context_.release();
+  context_.leave();
 }
 
 }  // namespace radiosity

@@ -60,13 +60,22 @@ class GlContext {
   /// glGetError says. `work` names what was done ("a buffer of 12 bytes"). The context is current.
   void check(const std::string& work) const;
 
+  /// Calls `release` with the context current, for destructors of what lives in it. Where it cannot be made
+  /// current, that ends with the context.
+  template <typename Release>
+  void when_current(const Release& release) const noexcept {
+    if (!try_acquire()) return;
+    release();
+    leave();
+  }
+
  private:
   friend class CurrentContext;
   friend struct DebugMessages;
   GlContext() = default;
 
-  void acquire() const;
-  void release() const;
+  bool try_acquire() const noexcept;
+  void leave() const noexcept;
   void read_strings_and_limits();
 
   void* display_ = nullptr;

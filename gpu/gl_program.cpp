@@ -76,8 +76,7 @@ GlProgram::GlProgram(std::shared_ptr<const GlContext> context, const std::string
 }
 
 GlProgram::~GlProgram() {
-  const CurrentContext current(*context_);
-  glDeleteProgram(name_);
+  context_->when_current([this] { glDeleteProgram(name_); });
 }
 
 void GlProgram::use() const {

@@ -10,8 +10,7 @@ GlTimer::GlTimer(std::shared_ptr<const GlContext> context) : context_(std::move(
 }
 
 GlTimer::~GlTimer() {
-  const CurrentContext current(*context_);
-  glDeleteQueries(1, &name_);
+  context_->when_current([this] { glDeleteQueries(1, &name_); });
 }
 
 GlTimer::Measurement::Measurement(GlTimer& timer) : timer_(timer) {

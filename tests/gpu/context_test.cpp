@@ -75,6 +75,7 @@ TEST_F(Context, ServesSeveralThreadsOneAfterTheOther) {
   const auto& context = device()->context();
   std::vector<int> read(4, -1);
   std::vector<std::thread> threads;
+  threads.reserve(read.size());
   for (int t = 0; t < 4; ++t)
     threads.emplace_back([&, t] {
       for (int repetition = 0; repetition < 20; ++repetition) {
