@@ -36,6 +36,8 @@ class CompressedColours {
 
   /// Null if there are tiles instead.
   const ColourTexture* texture() const { return std::get_if<ColourTexture>(&texels_); }
+  /// One a channel; null if there is a texture instead.
+  const Tiles* tiles() const { return std::get_if<Tiles>(&texels_); }
   /// What is kept apart, a channel each; empty with tiles.
   const std::vector<ExactRows>& exact() const { return exact_; }
   const std::vector<Index>& order() const { return order_; }

@@ -4,6 +4,7 @@
 #include "foundation/random.hpp"
 #include "foundation/spec.hpp"
 #include "foundation/stopwatch.hpp"
+#include "gpu/bc4_on_device.hpp"
 #include "gpu/csr_on_device.hpp"
 #include "gpu/dense_on_device.hpp"
 #include "gpu/device_colour_operator.hpp"
@@ -83,11 +84,16 @@ class Uploader {
 
   std::unique_ptr<LinearOperator> copy_texture(const HasCompressedColours& stored) const {
     const CompressedColours& compressed = stored.compressed_colours();
-    if (compressed.texture() == nullptr) refuse(original_.describe());
-    auto texture =
-        std::make_unique<TextureOnDevice>(device_, *compressed.texture(), compressed.exact(), strategy_);
+    Copy matrix;
+    if (compressed.texture() != nullptr)
+      matrix =
+          std::make_unique<TextureOnDevice>(device_, *compressed.texture(), compressed.exact(), strategy_);
+    else if (Bc4OnDevice::takes(compressed.tiles()->front()))
+      matrix = std::make_unique<Bc4OnDevice>(device_, *compressed.tiles(), strategy_);
+    else
+      refuse(original_.describe());
     return std::make_unique<DeviceTextureOperator>(dynamic_cast<const ColourOperator&>(original_),
-                                                   std::move(texture), compressed.order(), origin());
+                                                   std::move(matrix), compressed.order(), origin());
   }
 
   std::unique_ptr<LinearOperator> copy_colours(const HasStoredColours& stored) const {
@@ -142,8 +148,9 @@ double allowed_difference(const LinearOperator& original) {
 
 const std::vector<std::string>& uploadable_specs() {
   static const std::vector<std::string> specs = {
-      "dense:f32",     "dense:f16", "csr:f32",      "svd:k=64", "rsvd:k=64",   "qr:k=64",      "2msc:k=64",
-      "sparse-v:k=64", "cur:k=64",  "wavelet:k=64", "dct:k=64", "bounces:k=3", "dxt:codec=bc1"};
+      "dense:f32", "dense:f16",   "csr:f32",       "svd:k=64",     "rsvd:k=64",
+      "qr:k=64",   "2msc:k=64",   "sparse-v:k=64", "cur:k=64",     "wavelet:k=64",
+      "dct:k=64",  "bounces:k=3", "dxt:codec=bc1", "dxt:codec=bc4"};
   return specs;
 }
 

@@ -68,20 +68,22 @@ TEST_F(LimitedDevice, SplitsIntoAsManyBlocksAsItMust) {
               static_cast<std::size_t>(blocks));
 }
 
-TEST_F(LimitedDevice, SplitsFactorsAndSparseMatricesToo) {
-  constexpr Index n = 300;  // five panels of 64 rows, each of 2048 bytes with k = 8
+TEST_F(LimitedDevice, SplitsFactorsSparseMatricesAndTexturesToo) {
+  constexpr Index n = 300;  // five panels of 64 rows, each of 2048 bytes with k = 8; five tiles of 2048 a row
   const FormFactors form_factors = random_room(n);
   const Field X = Field::Random(n, 5);
   const auto whole = gl_operators(device(), cpu_operators());
-  const auto split = gl_operators(device_with_blocks_of(2 * 2048), cpu_operators());
-  for (const char* spec :
-       {"svd:k=8", "svd:k=8,norm=area,method=lanczos", "sparse-v:k=8", "csr:f32", "dxt:reorder=none"}) {
+  const auto split_in = [&](Index bytes, const std::string& spec) {
     Field Y(n, 5);
     Field Z(n, 5);
     whole.make(spec, form_factors)->apply(X, Y);
-    split.make(spec, form_factors)->apply(X, Z);
+    gl_operators(device_with_blocks_of(bytes), cpu_operators()).make(spec, form_factors)->apply(X, Z);
     EXPECT_LE((Y - Z).norm(), 1e-6 * Y.norm()) << spec;
-  }
+  };
+  for (const char* spec :
+       {"svd:k=8", "svd:k=8,norm=area,method=lanczos", "sparse-v:k=8", "csr:f32", "dxt:reorder=none"})
+    split_in(2 * 2048, spec);
+  split_in(2 * 5 * 2048, "dxt:codec=bc4,reorder=none");
 }
 
 TEST_F(LimitedDevice, RefusesWhatDoesNotFitIntoItsStorageBlocks) {
@@ -212,11 +214,12 @@ INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
 INSTANTIATE_TEST_SUITE_P(Bounces, DeviceCopies,
                          testing::Values("bounces:k=3,storage=f32", "bounces:k=2,storage=f16"), spec_name);
 
-INSTANTIATE_TEST_SUITE_P(Textures, DeviceCopies,
-                         testing::Values("dxt:reorder=rows,strategy=group",
-                                         "dxt:reorder=rows,strategy=invocation",
-                                         "dxt:bounces=3,reorder=none,map=linear"),
-                         spec_name);
+INSTANTIATE_TEST_SUITE_P(
+    Textures, DeviceCopies,
+    testing::Values("dxt:reorder=rows,strategy=group", "dxt:reorder=rows,strategy=invocation",
+                    "dxt:bounces=3,reorder=none,map=linear", "dxt:codec=bc4,fill=1,strategy=group",
+                    "dxt:codec=bc4,map=linear,strategy=invocation", "dxt:bounces=2,codec=bc4,range=auto"),
+    spec_name);
 
 }  // namespace
 }  // namespace radiosity

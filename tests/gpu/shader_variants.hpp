@@ -16,6 +16,8 @@ inline std::vector<ShaderVariant> shader_variants() {
   }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
+      variants.push_back({"bc4_product.comp",
+                          {{"COLUMNS", 4}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
       variants.push_back(
           {"csr_rows.comp",
            {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}, {"NARROW", present}, {"ADDS", present}}});
