@@ -98,6 +98,17 @@ TEST_F(LimitedDevice, RefusesWhatDoesNotFitIntoItsStorageBlocks) {
   }
 }
 
+TEST_F(LimitedDevice, RefusesFieldsThatDoNotFitIntoItsStorageBlocks) {
+  const auto registry = gl_operators(device_with_blocks_of(320 * 4 - 1), cpu_operators());
+  try {
+    registry.make("sparse-v:k=1", random_room(300));
+    FAIL() << "it was not refused";
+  } catch (const Error& error) {
+    for (const char* part : {"1280", "1279", "--device cpu"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
 using DeviceUses = LimitedDevice;
 
 TEST_F(DeviceUses, AreToldByTheOperatorAndByWhatIsWrappedAroundIt) {
