@@ -1,3 +1,4 @@
+#include "apps/device_choice.hpp"
 #include "apps/number_ranges.hpp"
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
@@ -8,6 +9,7 @@
 #include "experiments/low_rank_benchmark.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
+#include "gpu/upload.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -37,15 +39,32 @@ struct Benchmark {
   void (*run)(const BenchOptions& options, const Program& program);
 };
 
-void bench_apply(const BenchOptions& options, const Program& program) {
+/// What is not O(n^3) to build of what runs on a device.
+std::vector<std::string> quick_device_operators(const OperatorRegistry& operators) {
+  std::vector<std::string> specs;
+  for (const std::string& text : uploadable_specs()) {
+    const std::string name = Spec::parse(text).name();
+    const auto& entries = operators.entries();
+    if (std::any_of(entries.begin(), entries.end(),
+                    [&](const OperatorEntry& entry) { return entry.name == name && !entry.cubic; }))
+      specs.push_back(text);
+  }
+  return specs;
+}
+
+void bench_apply(const BenchOptions& options, const Program& cpu_program) {
   ApplyBenchmarkOptions sizes;
   sizes.size = options.patches.value_or(sizes.size);
   sizes.operators = options.operators;
+  if (options.run.device == "gl" && sizes.operators.empty())
+    sizes.operators = quick_device_operators(cpu_program.operators);
+  const Program program = on_device(cpu_program, options.run, sizes.operators);
   if (options.run.threads > 0) sizes.threads = {options.run.threads};
   print_apply_benchmark(benchmark_apply(program.operators, sizes), std::cout);
 }
 
 void bench_form_factors(const BenchOptions& options, const Program&) {
+  require_cpu(options.run, "bench form-factors");
   SceneOptions scene;
   scene.scene = options.scene;
   scene.patches = options.patches.value_or(13000);
@@ -58,6 +77,7 @@ void bench_form_factors(const BenchOptions& options, const Program&) {
 }
 
 void bench_low_rank(const BenchOptions& options, const Program&) {
+  require_cpu(options.run, "bench low-rank");
   LowRankBenchmarkOptions sizes;
   if (!options.sizes.empty()) sizes.sizes.clear();
   for (const std::string& size : options.sizes) sizes.sizes.push_back(LowRankSize::parse(size));
@@ -70,7 +90,6 @@ constexpr std::array<Benchmark, 3> benchmarks = {
 
 void run_bench(const BenchOptions& options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
-  require_device(options.run);
   for (const std::string& name : options.names)
     if (std::none_of(benchmarks.begin(), benchmarks.end(),
                      [&](const Benchmark& known) { return name == known.name; }))

@@ -1,3 +1,4 @@
+#include "apps/device_choice.hpp"
 #include "apps/form_factor_options.hpp"
 #include "apps/number_ranges.hpp"
 #include "apps/output_check.hpp"
@@ -74,11 +75,11 @@ std::vector<ComparisonPoint> plot_points(const Comparison& comparison) {
   return points;
 }
 
-void run_compare(CompareOptions options, const Program& program) {
+void run_compare(CompareOptions options, const Program& cpu_program) {
   const ThreadLimit limit(options.run.threads);
-  require_device(options.run);
   require_scene(options);
-  require_known_operators(options.comparison.operators, program.operators);
+  require_known_operators(options.comparison.operators, cpu_program.operators);
+  const Program program = on_device(cpu_program, options.run, options.comparison.operators);
   require_writable(options.json_file);
   require_writable(options.plot_file, ".svg");
   require_writable(options.form_factors.save_file);

@@ -1,3 +1,4 @@
+#include "apps/device_choice.hpp"
 #include "apps/form_factor_options.hpp"
 #include "apps/output_check.hpp"
 #include "apps/program.hpp"
@@ -45,7 +46,7 @@ void print_quality(const FormFactors& form_factors) {
 
 void run_form_factors(FormFactorsCommandOptions options) {
   const ThreadLimit limit(options.run.threads);
-  require_device(options.run);
+  require_cpu(options.run, "form-factors");
   require_writable(options.matrix_file, ".npy");
   require_writable(options.json_file);
   require_writable(options.form_factors.save_file);

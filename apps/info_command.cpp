@@ -1,3 +1,4 @@
+#include "apps/device_choice.hpp"
 #include "apps/group_summary.hpp"
 #include "apps/memory_need.hpp"
 #include "apps/program.hpp"
@@ -6,6 +7,7 @@
 #include "experiments/json_objects.hpp"
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
+#include "gpu/gl_device.hpp"
 #include "scene/built_in.hpp"
 
 #include <CLI/CLI.hpp>
@@ -72,7 +74,38 @@ void print_scene(const PatchMesh& mesh, bool quiet) {
     for (const std::string& note : mesh.notes) fmt::print("note: {}\n", note);
 }
 
-void write_scene_json(const std::filesystem::path& file, const PatchMesh& mesh) {
+void print_device(const GlContext& context) {
+  const GlLimits& limits = context.limits();
+  fmt::print("device           {}\n", renderer_text(context));
+  fmt::print("vendor           {}\n", context.vendor());
+  fmt::print("opened by        {}\n", context.platform());
+  fmt::print("storage block    {}\n", byte_text(static_cast<double>(limits.storage_block_bytes)));
+  fmt::print("shared memory    {}\n", byte_text(limits.shared_bytes));
+  fmt::print("work group       {} invocations, {} x {} x {} at most\n", limits.group_invocations,
+             limits.group_size[0], limits.group_size[1], limits.group_size[2]);
+  fmt::print("work groups      {} x {} x {}\n", limits.group_count[0], limits.group_count[1],
+             limits.group_count[2]);
+}
+
+/// Null for the CPU.
+Json device_json(const GlDevice* device) {
+  if (device == nullptr) return {};
+  const GlContext& context = *device->context();
+  const GlLimits& limits = context.limits();
+  return {{"name", "gl"},
+          {"renderer", context.renderer()},
+          {"vendor", context.vendor()},
+          {"version", context.version()},
+          {"platform", context.platform()},
+          {"software", context.software()},
+          {"storage_block_bytes", limits.storage_block_bytes},
+          {"shared_bytes", limits.shared_bytes},
+          {"group_invocations", limits.group_invocations},
+          {"group_size", limits.group_size},
+          {"group_count", limits.group_count}};
+}
+
+void write_scene_json(const std::filesystem::path& file, const PatchMesh& mesh, const GlDevice* device) {
   Json scene = scene_json(mesh);
   scene["surface"] = connectivity_text(mesh.topology);
   Json groups = Json::array();
@@ -86,19 +119,28 @@ void write_scene_json(const std::filesystem::path& file, const PatchMesh& mesh) 
                       {"emission", numbers_json(emissions[next++].mean)}});
   Json memory = Json::object();
   for (const MemoryNeed& need : memory_needs(mesh)) memory[need.operator_spec] = need.bytes;
-  write_json(file, {{"scene", scene}, {"groups", groups}, {"memory", memory}, {"notes", mesh.notes}});
+  write_json(file, {{"scene", scene},
+                    {"groups", groups},
+                    {"memory", memory},
+                    {"notes", mesh.notes},
+                    {"device", device_json(device)}});
 }
 
 void run_info(const InfoOptions& options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
-  require_device(options.run);
+  const std::shared_ptr<GlDevice> device = open_device(options.run);
+  const bool scene = !options.scene.scene.empty();
+  if (device) {
+    print_device(*device->context());
+    if (scene || options.list) fmt::print("\n");
+  }
   if (options.list) {
     print_list(program);
-    if (options.scene.scene.empty()) return;
-    fmt::print("\n");
+    if (scene) fmt::print("\n");
   }
+  if (!scene && (device || options.list) && options.json_file.empty()) return;
   const auto mesh = open_mesh(options.scene);
-  if (!options.json_file.empty()) write_scene_json(options.json_file, *mesh);
+  if (!options.json_file.empty()) write_scene_json(options.json_file, *mesh, device.get());
   print_scene(*mesh, options.run.quiet);
 }
 

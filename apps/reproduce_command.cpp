@@ -1,3 +1,4 @@
+#include "apps/device_choice.hpp"
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/terminal_monitor.hpp"
@@ -240,7 +241,7 @@ std::string machine_text(const Machine& machine) {
 
 void run_reproduce(const ReproduceOptions& options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
-  require_device(options.run);
+  require_cpu(options.run, "reproduce");
   require_known_tables(options.tables);
   TerminalMonitor monitor(options.run.quiet);
 

@@ -1,7 +1,6 @@
 #include "apps/run_options.hpp"
 
 #include "apps/number_ranges.hpp"
-#include "foundation/error.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -17,15 +16,10 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->check(integer_between(0, std::numeric_limits<std::int64_t>::max()))
       ->option_text("N");
   command.add_flag("--quiet", options.quiet, "no progress bar and no notes");
-  command.add_option("--device", options.device, "where operators run: cpu; gl is not part of this version")
+  command
+      .add_option("--device", options.device,
+                  "where operators run: cpu, or gl (OpenGL 4.3 or later); default cpu")
       ->option_text("cpu|gl");
-}
-
-void require_device(const RunOptions& options) {
-  if (options.device == "gl")
-    fail<UsageError>("--device gl: OpenGL is not built into this version; use --device cpu");
-  if (options.device != "cpu")
-    fail<UsageError>("--device {}: there is no such device; the known ones are cpu and gl", options.device);
 }
 
 }  // namespace radiosity

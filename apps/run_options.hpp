@@ -19,7 +19,4 @@ struct RunOptions {
 
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Throws UsageError for a device that this build does not have.
-void require_device(const RunOptions& options);
-
 }  // namespace radiosity

@@ -44,6 +44,7 @@ Solution solve_scene(const FormFactors& form_factors, const Field& emission, con
   result.solver_name = solver->describe();
   result.products = solver->products();
   result.residual = solver->residual();
+  result.device = transport->device_use();
   result.radiosity = solver->radiosity();
   result.irradiance = irradiance(form_factors, *transport, result.radiosity);
   return result;

@@ -4,6 +4,7 @@
 #include "form_factors/form_factors.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace radiosity {
@@ -20,8 +21,9 @@ struct Solution {
   Field radiosity;   ///< n x channels, W/m^2
   Field irradiance;  ///< the same, F B
   std::string operator_name;
-  std::string solver_name;  ///< empty where the operator answers by itself
-  std::size_t bytes = 0;    ///< of the operator
+  std::string solver_name;          ///< empty where the operator answers by itself
+  std::size_t bytes = 0;            ///< of the operator
+  std::optional<DeviceUse> device;  ///< empty: the CPU
   double build_seconds = 0;
   double solve_seconds = 0;
   int products = 0;

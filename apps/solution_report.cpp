@@ -1,5 +1,6 @@
 #include "apps/solution_report.hpp"
 
+#include "apps/device_choice.hpp"
 #include "apps/memory_need.hpp"
 #include "experiments/json_objects.hpp"
 
@@ -92,6 +93,7 @@ void print_solution(const FormFactors& form_factors, const SolutionReport& repor
                quality.closure, quality.row_sum_min, quality.row_sum_max, quality.seconds);
   fmt::print("operator   {}, {}, built in {:.3g} s\n", solution.operator_name,
              byte_text(static_cast<double>(solution.bytes)), solution.build_seconds);
+  fmt::print("{}", device_line(solution.device));
   if (solution.solver_name.empty())
     fmt::print("solver     none: the operator answers by itself, {:.3g} s\n", solution.solve_seconds);
   else
@@ -117,7 +119,9 @@ void write_solution_json(const std::filesystem::path& file, const FormFactors& f
                     {"form_factors", form_factors_json(form_factors.quality)},
                     {"operator", solution.operator_name},
                     {"solver", solution.solver_name.empty() ? Json() : Json(solution.solver_name)},
-                    {"device", "cpu"},
+                    {"device", device_name(solution.device)},
+                    {"renderer", renderer_json(solution.device)},
+                    {"device_difference_max", device_difference_json(solution.device)},
                     {"bytes", solution.bytes},
                     {"build_seconds", solution.build_seconds},
                     {"solve_seconds", solution.solve_seconds},

@@ -1,3 +1,4 @@
+#include "apps/device_choice.hpp"
 #include "apps/energy_balance.hpp"
 #include "apps/form_factor_options.hpp"
 #include "apps/group_summary.hpp"
@@ -35,6 +36,7 @@ struct SolveOptions {
   SceneOptions scene;
   FormFactorChoice form_factors;
   SolutionRequest request;
+  std::optional<std::string> operator_spec;  ///< empty: what suits the device
   RunOptions run;
   std::string lights;
   std::optional<std::string> simplify;  ///< "voxels:N"; else the scene itself is solved
@@ -98,9 +100,11 @@ std::optional<CertificateSummary> certify_solution(const SolveOptions& options,
   return certifier ? std::optional(certifier->certify(emission, radiosity)) : std::nullopt;
 }
 
-void run_solve(SolveOptions options, const Program& program) {
+void run_solve(SolveOptions options, const Program& cpu_program) {
   const ThreadLimit limit(options.run.threads);
-  require_device(options.run);
+  options.request.operator_spec =
+      options.operator_spec.value_or(options.run.device == "gl" ? "dense:f32" : "dense");
+  const Program program = on_device(cpu_program, options.run, {options.request.operator_spec});
   check_outputs(options);
   const std::optional<Index> voxels = wanted_voxels(options.simplify);
   options.form_factors.options.seed = options.run.seed;
@@ -166,7 +170,9 @@ void add_solve_command(CLI::App& app, const Program& program) {
       app.add_subcommand("solve", "the radiosity of a scene, as numbers, a picture or a lit mesh");
   const auto options = std::make_shared<SolveOptions>();
   add_scene_options(*command, options->scene);
-  command->add_option("--operator", options->request.operator_spec, "default dense (radiosity info --list)")
+  command
+      ->add_option("--operator", options->operator_spec,
+                   "default dense, or dense:f32 with --device gl (radiosity info --list)")
       ->option_text("SPEC");
   command
       ->add_option("--solver", options->request.solver_spec,

@@ -25,3 +25,12 @@ if(NOT TARGET radiosity_external::lapacke)
   target_link_libraries(radiosity_external::lapacke INTERFACE lapacke openblas)
   target_include_directories(radiosity_external::lapacke SYSTEM INTERFACE ${OpenBLAS_INCLUDE_DIRS})
 endif()
+
+# OpenGL's and EGL's functions, which libepoxy finds when the program runs: no driver is needed to build or to start.
+if(NOT TARGET radiosity_external::epoxy)
+  find_library(RADIOSITY_EPOXY_LIBRARY epoxy REQUIRED)
+  find_path(RADIOSITY_EPOXY_INCLUDE epoxy/gl.h REQUIRED)
+  add_library(radiosity_external::epoxy INTERFACE IMPORTED)
+  target_link_libraries(radiosity_external::epoxy INTERFACE ${RADIOSITY_EPOXY_LIBRARY})
+  target_include_directories(radiosity_external::epoxy SYSTEM INTERFACE ${RADIOSITY_EPOXY_INCLUDE})
+endif()

@@ -36,6 +36,10 @@ class CompressedColours {
 
   /// Null if there are tiles instead.
   const ColourTexture* texture() const { return std::get_if<ColourTexture>(&texels_); }
+  /// One a channel; null if there is a texture instead.
+  const Tiles* tiles() const { return std::get_if<Tiles>(&texels_); }
+  /// What is kept apart, a channel each; empty with tiles.
+  const std::vector<ExactRows>& exact() const { return exact_; }
   const std::vector<Index>& order() const { return order_; }
 
   /// Texels, entries kept apart, their indices, and the order where it is not that of the patches.

@@ -71,6 +71,7 @@ class Contest {
     const BlasThreads blas_threads(result.threads);
     result.repetitions = take_turns(competitors_, seconds);
     result.load_after = load_average();
+    if (!operators_.empty()) result.device = operators_.front()->device_use();
     fill_rows(result);
     return result;
   }
@@ -190,6 +191,9 @@ void print_apply_benchmark(const std::vector<ApplyBenchmark>& results, std::ostr
                "n = {}, {} thread{}, {} repetitions, load {:.1f} to {:.1f}, read bandwidth {:.1f} GB/s\n",
                result.size, result.threads, result.threads == 1 ? "" : "s", result.repetitions,
                result.load_before, result.load_after, result.read_bandwidth_gb_s);
+    if (result.device)
+      fmt::print(out, "device {}: {}{}\n", result.device->name, result.device->renderer,
+                 result.device->software ? " (a software renderer: it computes on the CPU)" : "");
     fmt::print(out, "  {:<18} {:>7} {:>9} {:>9} {:>9} {:>14} {:>14}\n", "product", "columns", "MB", "min ms",
                "median ms", "of bandwidth", "x sgemv/column");
     for (const ApplyBenchmarkRow& row : result.rows)

@@ -3,6 +3,7 @@
 #include "operators/operator_registry.hpp"
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct ApplyBenchmark {
   int repetitions = 0;
   double load_before = 0;  ///< the system's load average of the last minute: above 0 means company
   double load_after = 0;
-  double read_bandwidth_gb_s = 0;  ///< best of streaming sums, 1e9 bytes a second
+  std::optional<DeviceUse> device;  ///< of the operators; empty: the CPU
+  double read_bandwidth_gb_s = 0;   ///< best of streaming sums, 1e9 bytes a second
   std::vector<ApplyBenchmarkRow> rows;
 };
 

@@ -73,6 +73,20 @@ Timing time_apply(const LinearOperator& transport, const Field& fields) {
   return Timing::of(std::move(samples));
 }
 
+double device_seconds(const LinearOperator& transport) {
+  const std::optional<DeviceUse> use = transport.device_use();
+  return use ? use->device_seconds : 0;
+}
+
+/// Fills apply and device_apply_seconds.
+void time_products(const LinearOperator& transport, const Field& fields, ComparisonResult& result) {
+  const double before = device_seconds(transport);
+  const std::uint64_t products = transport.usage().products;
+  result.apply = time_apply(transport, fields);
+  result.device_apply_seconds =
+      (device_seconds(transport) - before) / static_cast<double>(transport.usage().products - products);
+}
+
 /// Solves light by light, as whoever asks for one would; fills solver, solve and iterations and returns B of
 /// all lights.
 Field solve_lights(const Task& task, const LinearOperator& transport, ComparisonResult& result) {
@@ -132,12 +146,13 @@ ComparisonResult examine(const Task& task, const std::string& spec) {
   const auto transport = task.operators.make(spec, task.form_factors);
   result.build_seconds = build.seconds();
   result.bytes = transport->bytes().total();
-  result.apply = time_apply(*transport, task.lights.emission.leftCols(task.mesh().channels()));
+  time_products(*transport, task.lights.emission.leftCols(task.mesh().channels()), result);
   const Field radiosity = solve_lights(task, *transport, result);
   measure_errors(task, *transport, radiosity, result.errors);
   if (task.certifier != nullptr)
     result.certificate = task.certifier->certify(task.lights.emission, radiosity, task.reference);
   result.remark = transport->remark();
+  result.device = transport->device_use();
   if (!transport->global()) measure_transport(task, *transport, result);
   return result;
 }

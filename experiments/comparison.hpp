@@ -54,6 +54,9 @@ struct ComparisonResult {
   std::string solver;  ///< as the solver describes itself; empty where the operator answers by itself
   std::size_t bytes = 0;
   double build_seconds = 0;
+  std::optional<DeviceUse> device;  ///< empty: the CPU
+  double device_apply_seconds =
+      0;         ///< of the device in a product, fields on their way not included; the mean
   Timing apply;  ///< one product with n x channels
   Timing solve;  ///< one light, over the lights; a solver that factors shows it in its first one
   ComparisonErrors errors;

@@ -34,6 +34,15 @@ std::string ratio_text(const ComparisonResult& result) {
   return fmt::format("{:.2f} - {:.2f}", *result.certificate->ratio_min, *result.certificate->ratio_max);
 }
 
+std::string device_text(const ComparisonResult& result) {
+  const DeviceUse& device = *result.device;
+  return fmt::format("{}: on {}{}, sent in {}, {} a product, at most {} from the CPU's\n", result.spec,
+                     device.renderer,
+                     device.software ? " (a software renderer, which computes on the CPU)" : "",
+                     time_text(device.upload_seconds), time_text(result.device_apply_seconds),
+                     error_text(device.difference_max));
+}
+
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
@@ -49,6 +58,8 @@ std::string comparison_table(const Comparison& comparison) {
                     error_text(result.errors.indirect_mean), bound_text(result), ratio_text(result));
   for (const ComparisonResult& result : comparison.results)
     if (!result.remark.empty()) table += fmt::format("{}: {}\n", result.spec, result.remark);
+  for (const ComparisonResult& result : comparison.results)
+    if (result.device) table += device_text(result);
   return table;
 }
 

@@ -19,9 +19,9 @@ Json result_json(const ComparisonResult& result) {
   const ComparisonErrors& errors = result.errors;
   return {{"operator", result.spec},
           {"solver", result.solver.empty() ? Json() : Json(result.solver)},
-          {"device", "cpu"},
-          {"renderer", nullptr},               // of a graphics device
-          {"device_difference_max", nullptr},  // from the plain arithmetic of this device
+          {"device", device_name(result.device)},
+          {"renderer", renderer_json(result.device)},
+          {"device_difference_max", device_difference_json(result.device)},
           {"bytes", result.bytes},
           {"build_seconds", result.build_seconds},
           {"apply_seconds", timing_json(result.apply)},

@@ -65,6 +65,18 @@ Json matrix_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
+std::string device_name(const std::optional<DeviceUse>& use) {
+  return use ? use->name : "cpu";
+}
+
+Json renderer_json(const std::optional<DeviceUse>& use) {
+  return use ? Json(use->renderer) : Json();
+}
+
+Json device_difference_json(const std::optional<DeviceUse>& use) {
+  return use ? Json(use->difference_max) : Json();
+}
+
 void write_json(const std::filesystem::path& file, const Json& value) {
   OutputFile output(file);
   output.stream() << value.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

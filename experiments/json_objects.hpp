@@ -3,6 +3,7 @@
 #include "experiments/certification.hpp"
 #include "experiments/machine.hpp"
 #include "form_factors/form_factors.hpp"
+#include "operators/linear_operator.hpp"
 #include "scene/patch_mesh.hpp"
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace radiosity {
 
@@ -42,5 +44,10 @@ Json matrix_json(const Eigen::MatrixXd& matrix);
 
 /// Writes a value, indented; the file appears whole or not at all.
 void write_json(const std::filesystem::path& file, const Json& value);
+
+/// What documents say of the device of an operator; "cpu", null and null without one.
+std::string device_name(const std::optional<DeviceUse>& use);
+Json renderer_json(const std::optional<DeviceUse>& use);
+Json device_difference_json(const std::optional<DeviceUse>& use);
 
 }  // namespace radiosity

@@ -85,4 +85,13 @@ void ExactRows::add_row(Index row, double* numbers) const {
   });
 }
 
+CsrMatrix<float> ExactRows::compressed_rows() const {
+  CsrMatrix<float> matrix;
+  matrix.cols = columns_;
+  matrix.row_begin.assign(begin_.begin(), begin_.end());
+  matrix.value = values_;
+  visit_columns([&](const auto* column) { matrix.column.assign(column, column + values_.size()); });
+  return matrix;
+}
+
 }  // namespace radiosity

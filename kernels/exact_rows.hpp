@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernels/csr_matrix.hpp"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -33,6 +35,9 @@ class ExactRows {
 
   /// Adds the entries of a row to n numbers.
   void add_row(Index row, double* numbers) const;
+
+  /// The same by compressed rows with columns of 32 bits.
+  CsrMatrix<float> compressed_rows() const;
 
   std::size_t value_bytes() const { return values_.size() * sizeof(float); }
   std::size_t index_bytes() const {

@@ -112,11 +112,15 @@ float QuantizedTiles::stored_number(Index tile, Index r, Index c) const {
                               << 16);
 }
 
-void QuantizedTiles::decode(Index tile, float* entries) const {
+void QuantizedTiles::decode_record(Index tile, float* entries) const {
   std::fill(entries, entries + tile_entries, 0.0F);
   if (record_bytes_ > 0)
     for (Index r = 0; r < tile_size; ++r)
       for (Index c = 0; c < tile_size; ++c) entries[r * tile_size + c] = stored_number(tile, r, c);
+}
+
+void QuantizedTiles::decode(Index tile, float* entries) const {
+  decode_record(tile, entries);
   for (std::size_t k = exact_begin(tile); k < exact_begin(tile + 1); ++k)
     entries[exact_position_[k]] = exact_value_[k];
 }

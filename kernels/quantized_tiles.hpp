@@ -78,6 +78,8 @@ class QuantizedTiles {
 
   /// The 64 x 64 numbers of a tile, row-major, without scale(): the plain reference of every decoder.
   void decode(Index tile, float* entries) const;
+  /// The same as if no entry were kept apart.
+  void decode_record(Index tile, float* entries) const;
 
   std::size_t step_bytes() const;
   std::size_t code_bytes() const;

@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ["foundation", "kernels", "factorizations", "compression", "scene", "form_factors", "operators", "solvers",
+FOLDERS = ["foundation", "kernels", "factorizations", "compression", "scene", "form_factors", "operators", "solvers", "gpu",
            "render", "experiments"]
 MARK = "end-of-cell-7f3a"
 NUMBERS = itertools.count()

@@ -5,6 +5,7 @@
 #include "operators/colour_operator.hpp"
 #include "operators/distinct_reflectances.hpp"
 #include "operators/storage_choice.hpp"
+#include "operators/stored_matrix.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ namespace radiosity {
 namespace {
 
 template <typename Scalar>
-class BouncesOperator final : public ColourOperator {
+class BouncesOperator final : public ColourOperator, public HasStoredColours {
  public:
   BouncesOperator(const FormFactors& form_factors, const BounceCount& bounces)
       : ColourOperator(form_factors, true), bounces_(bounces), reflectances_(reflectance()) {
@@ -34,6 +35,11 @@ class BouncesOperator final : public ColourOperator {
   }
   std::string describe() const override {
     return fmt::format("bounces:k={},storage={}", bounce_text(bounces_), storage_name<Scalar>());
+  }
+  std::vector<StoredMatrix> stored_colours() const override {
+    std::vector<StoredMatrix> matrices;
+    for (const auto& sum : sums_) matrices.emplace_back(&sum);
+    return matrices;
   }
   double product_roundoff() const override { return std::is_same_v<Scalar, double> ? 0x1p-53 : 0x1p-24; }
 

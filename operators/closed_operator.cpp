@@ -54,6 +54,7 @@ class RowClosedOperator final : public LinearOperator {
   }
   std::string describe() const override { return with_keys(approximation_->describe(), "closure=rows"); }
   double product_roundoff() const override { return approximation_->product_roundoff(); }
+  std::optional<DeviceUse> device_use() const override { return approximation_->device_use(); }
   std::string remark() const override {
     if (empty_rows_ == 0) return {};
     return fmt::format("{} rows have no positive sum and cannot be closed by scaling", empty_rows_);
@@ -77,6 +78,7 @@ class ClosedKernelOperator : public KernelOperator {
  public:
   std::string describe() const final { return with_keys(approximation_->describe(), keys_); }
   double product_roundoff() const final { return approximation_->product_roundoff(); }
+  std::optional<DeviceUse> device_use() const final { return approximation_->device_use(); }
 
  protected:
   ClosedKernelOperator(std::unique_ptr<KernelOperator> approximation, std::string keys,

@@ -6,6 +6,7 @@
 #include "operators/matrix_operator.hpp"
 #include "operators/rounding_certificate.hpp"
 #include "operators/storage_choice.hpp"
+#include "operators/stored_matrix.hpp"
 
 namespace radiosity {
 namespace {
@@ -18,13 +19,14 @@ ByteCount csr_bytes(const CsrMatrix<Scalar>& matrix, Index n, Index channels) {
 }
 
 template <typename Scalar>
-class CsrKernelOperator final : public KernelOperator {
+class CsrKernelOperator final : public KernelOperator, public HasStoredMatrix {
  public:
   explicit CsrKernelOperator(const FormFactors& form_factors)
       : KernelOperator(form_factors), kernel_(compress<Scalar>(*form_factors.kernel)) {}
 
   ByteCount bytes() const override { return csr_bytes(kernel_, size(), channels()); }
   std::string describe() const override { return storage_spec<Scalar>("csr"); }
+  StoredMatrix stored() const override { return &kernel_; }
 
   Certificate certificate() const override {
     const AbsoluteSums kernel = absolute_sums(kernel_, root_area());
@@ -41,13 +43,14 @@ class CsrKernelOperator final : public KernelOperator {
 };
 
 template <typename Scalar>
-class CsrMatrixOperator final : public MatrixOperator {
+class CsrMatrixOperator final : public MatrixOperator, public HasStoredMatrix {
  public:
   explicit CsrMatrixOperator(const FormFactors& form_factors)
       : MatrixOperator(form_factors), matrix_(compress<Scalar>(*form_factors.unsymmetric)) {}
 
   ByteCount bytes() const override { return csr_bytes(matrix_, size(), channels()); }
   std::string describe() const override { return storage_spec<Scalar>("csr"); }
+  StoredMatrix stored() const override { return &matrix_; }
 
   Certificate certificate() const override {
     const AbsoluteSums rows = absolute_sums(matrix_, Eigen::VectorXd::Ones(size()));

@@ -6,6 +6,7 @@
 #include "operators/matrix_operator.hpp"
 #include "operators/rounding_certificate.hpp"
 #include "operators/storage_choice.hpp"
+#include "operators/stored_matrix.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -32,7 +33,7 @@ std::shared_ptr<const RowMajorMatrix<Scalar>> stored_matrix(
 }
 
 template <typename Scalar>
-class DenseKernelOperator final : public KernelOperator {
+class DenseKernelOperator final : public KernelOperator, public HasStoredMatrix {
  public:
   explicit DenseKernelOperator(const FormFactors& form_factors)
       : KernelOperator(form_factors), kernel_(stored_kernel<Scalar>(form_factors.kernel)) {}
@@ -43,6 +44,7 @@ class DenseKernelOperator final : public KernelOperator {
              {"diagonals", diagonal_bytes(size(), channels())}}};
   }
   std::string describe() const override { return storage_spec<Scalar>("dense"); }
+  StoredMatrix stored() const override { return kernel_.get(); }
   double product_roundoff() const override { return std::is_same_v<Scalar, double> ? 0x1p-53 : 0x1p-24; }
 
   double product_error() const override {
@@ -68,7 +70,7 @@ class DenseKernelOperator final : public KernelOperator {
 };
 
 template <typename Scalar>
-class DenseMatrixOperator final : public MatrixOperator {
+class DenseMatrixOperator final : public MatrixOperator, public HasStoredMatrix {
  public:
   explicit DenseMatrixOperator(const FormFactors& form_factors)
       : MatrixOperator(form_factors), matrix_(stored_matrix<Scalar>(form_factors.unsymmetric)) {}
@@ -77,6 +79,7 @@ class DenseMatrixOperator final : public MatrixOperator {
     return {{{"entries", matrix_->entry_bytes()}, {"diagonals", diagonal_bytes(size(), channels())}}};
   }
   std::string describe() const override { return storage_spec<Scalar>("dense"); }
+  StoredMatrix stored() const override { return matrix_.get(); }
   double product_roundoff() const override { return std::is_same_v<Scalar, double> ? 0x1p-53 : 0x1p-24; }
 
   Certificate certificate() const override {

@@ -6,6 +6,7 @@
 #include "operators/colour_operator.hpp"
 #include "operators/compressed_kernel_operator.hpp"
 #include "operators/storage_choice.hpp"
+#include "operators/stored_matrix.hpp"
 #include "operators/texel_order.hpp"
 
 #include <fmt/format.h>
@@ -95,7 +96,7 @@ std::vector<ColourMatrix> colour_matrices(const FormFactors& form_factors, const
   return matrices;
 }
 
-class DxtOperator final : public ColourOperator {
+class DxtOperator final : public ColourOperator, public HasCompressedColours {
  public:
   DxtOperator(const FormFactors& form_factors, const DxtChoice& choice, CompressedColours compressed,
               Certificate certificate)
@@ -110,6 +111,7 @@ class DxtOperator final : public ColourOperator {
     return bytes;
   }
   std::string describe() const override { return spec_; }
+  const CompressedColours& compressed_colours() const override { return compressed_; }
   Certificate certificate() const override { return certificate_; }
   double product_roundoff() const override { return 0x1p-24; }
 

@@ -5,10 +5,17 @@
 #include "operators/field_checks.hpp"
 #include "operators/reflectance.hpp"
 
+#include <utility>
+
 namespace radiosity {
 
 KernelOperator::KernelOperator(const FormFactors& form_factors)
     : root_area_(form_factors.mesh->area.cwiseSqrt()), reflectance_(form_factors.mesh->reflectance) {
+  check_reflectance(reflectance_, root_area_.size());
+}
+
+KernelOperator::KernelOperator(Eigen::VectorXd root_area, Eigen::MatrixXd reflectance)
+    : root_area_(std::move(root_area)), reflectance_(std::move(reflectance)) {
   check_reflectance(reflectance_, root_area_.size());
 }
 

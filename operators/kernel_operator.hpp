@@ -34,6 +34,8 @@ class KernelOperator : public LinearOperator, public TransposedApply {
  protected:
   /// Takes areas and reflectances from the mesh of `form_factors`.
   explicit KernelOperator(const FormFactors& form_factors);
+  /// With the areas and reflectances of another operator.
+  KernelOperator(Eigen::VectorXd root_area, Eigen::MatrixXd reflectance);
 
   /// Y = K X, c > 0; Y is written, never read.
   virtual void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const = 0;

@@ -31,6 +31,17 @@ struct Certificate {
   std::string method;                           ///< "proved", "sampled, 99 %", "not known"
 };
 
+/// Where an operator computes that is not on the CPU, and how it fares there.
+struct DeviceUse {
+  std::string name;           ///< as --device has it: "gl"
+  std::string renderer;       ///< as the driver names it
+  bool software = false;      ///< the driver computes on the CPU after all
+  double difference_max = 0;  ///< of a product from that of the CPU with the same stored numbers: the largest
+                              ///< |difference| of a component, relative to the largest component
+  double upload_seconds = 0;  ///< copying the operator to the device, once
+  double device_seconds = 0;  ///< of the device in products so far, fields on their way not included
+};
+
 /// A linear map from a field on the patches to a field on the patches: T = R F, an approximation of it, a sum
 /// of its powers, or (I - T)^-1, on whatever device. Fields are double whatever the storage is. With several
 /// channels, column j of a field belongs to channel j mod channels() (lights one after the other). `apply`
@@ -78,6 +89,9 @@ class LinearOperator {
 
   /// What who reads its results should know ("no symmetric scaling exists; ..."); empty if there is nothing.
   virtual std::string remark() const { return {}; }
+
+  /// Empty for operators that compute on the CPU.
+  virtual std::optional<DeviceUse> device_use() const { return {}; }
 
   Usage usage() const { return {products_.load(), 1e-9 * static_cast<double>(nanoseconds_.load())}; }
 

@@ -49,6 +49,8 @@ class LowRankOperator final : public MatrixOperator, public LowRankFactors {
   }
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
   std::size_t right_bytes() const override { return V_.entry_bytes(); }
+  const FactorMatrix<Scalar>& left_factor() const { return U_; }
+  const FactorMatrix<Scalar>& right_factor() const { return V_; }
 
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }
@@ -84,6 +86,9 @@ class LowRankKernelOperator final : public KernelOperator, public LowRankFactors
   std::size_t right_bytes() const override {
     return Q_.entry_bytes() + static_cast<std::size_t>(size()) * sizeof(double);
   }
+  /// Q and the values.
+  const FactorMatrix<Scalar>& factor() const { return Q_; }
+  const Eigen::VectorXd& values() const { return values_; }
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }
   Certificate certificate() const override { return certificate_; }

@@ -21,6 +21,7 @@ class SparseVOperator final : public MatrixOperator, public LowRankFactors {
   SparseVOperator(const FormFactors& form_factors, Segments V, FactorMatrix<Scalar> U, std::string spec,
                   std::string remark);
 
+  const FactorMatrix<Scalar>& left_factor() const { return U_; }
   const Segments& right_factor() const { return V_; }
 
   Index rank() const override { return U_.columns(); }

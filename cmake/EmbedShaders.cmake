@@ -1,0 +1,13 @@
+# cmake -D OUTPUT=... -D FOLDER=... -P EmbedShaders.cmake: a source that has the files of a folder as texts.
+file(GLOB files "${FOLDER}/*.comp" "${FOLDER}/*.glsl")
+list(SORT files)
+set(text "// Made from gpu/shaders by cmake/EmbedShaders.cmake.\n#include \"gpu/shader_sources.hpp\"\n\n")
+string(APPEND text "namespace radiosity {\n\nconst std::vector<ShaderFile>& shader_files() {\n")
+string(APPEND text "  static const std::vector<ShaderFile> files = {\n")
+foreach(file ${files})
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} shader)
+  string(APPEND text "      {\"${name}\", R\"glsl(${shader})glsl\"},\n")
+endforeach()
+string(APPEND text "  };\n  return files;\n}\n\n}  // namespace radiosity\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,133 @@
+#include "gpu/csr_on_device.hpp"
+
+#include "foundation/error.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace radiosity {
+namespace {
+
+constexpr unsigned values_binding = 0;
+constexpr unsigned columns_binding = 3;
+constexpr unsigned row_begin_binding = 4;
+/// Invocations of a work group, and how many of them share a row.
+struct RowSharing {
+  int invocations;
+  int lanes;
+};
+constexpr RowSharing shared_rows{128, 32};
+constexpr RowSharing single_rows{64, 1};
+
+const RowSharing& sharing_of(RowStrategy strategy) {
+  return strategy == RowStrategy::group ? shared_rows : single_rows;
+}
+
+ShaderFamily shaders_of_rows(RowStrategy strategy, bool narrow, bool adds) {
+  const RowSharing& sharing = sharing_of(strategy);
+  return {"csr_rows.comp",
+          {{"INVOCATIONS", sharing.invocations},
+           {"LANES", sharing.lanes},
+           {"NARROW", narrow ? 1 : 0},
+           {"ADDS", adds ? 1 : 0}}};
+}
+
+std::int64_t begin_of(const CsrMatrix<float>& matrix, Index row) {
+  return matrix.row_begin[static_cast<std::size_t>(row)];
+}
+
+/// The row after the last of those from `first` on whose entries and offsets fit into a storage block.
+Index end_of_block(const CsrMatrix<float>& matrix, Index first, const GlContext& context) {
+  const std::int64_t most = context.limits().storage_block_bytes / 4;
+  const auto from = matrix.row_begin.begin() + first;
+  const auto beyond = std::upper_bound(from, matrix.row_begin.end(), *from + most);
+  const Index end = std::min<Index>((beyond - matrix.row_begin.begin()) - 1, first + most - 1);
+  if (end <= first)
+    fail("row {} has {} entries, and a storage block of '{}' has room for {}: use --device cpu", first,
+         begin_of(matrix, first + 1) - *from, context.renderer(), most);
+  return end;
+}
+
+template <typename Number>
+GlBuffer buffer_of(const std::shared_ptr<const GlContext>& context, const Number* numbers,
+                   std::size_t count) {
+  GlBuffer buffer(context, std::max<std::size_t>(count * sizeof(Number), 4));
+  if (count > 0) buffer.write(0, count * sizeof(Number), numbers);
+  return buffer;
+}
+
+}  // namespace
+
+CsrOnDevice::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMatrix<float>& matrix,
+                         RowStrategy strategy)
+    : DeviceMatrix(std::move(device_of_matrix), matrix.rows(), matrix.cols),
+      strategy_(strategy),
+      narrow_(matrix.cols <= 65536),
+      product_(shaders_of_rows(strategy, narrow_, false)),
+      sum_(shaders_of_rows(strategy, narrow_, true)) {
+  const GlContext& context = *device().context();
+  const CurrentContext current(context);
+  for (Index first = 0; first < rows();) {
+    const Index end = end_of_block(matrix, first, context);
+    upload_block(matrix, first, end);
+    first = end;
+  }
+  context.check("sending a sparse matrix");
+}
+
+void CsrOnDevice::upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row) {
+  const auto& context = device().context();
+  const std::int64_t first = begin_of(matrix, first_row);
+  const auto count = static_cast<std::size_t>(begin_of(matrix, end_row) - first);
+  std::vector<std::uint32_t> row_begin;
+  for (Index row = first_row; row <= end_row; ++row)
+    row_begin.push_back(static_cast<std::uint32_t>(begin_of(matrix, row) - first));
+  blocks_.push_back({first_row, end_row - first_row, buffer_of(context, matrix.value.data() + first, count),
+                     upload_columns(matrix.column.data() + first, count),
+                     buffer_of(context, row_begin.data(), row_begin.size())});
+}
+
+GlBuffer CsrOnDevice::upload_columns(const std::int32_t* columns, std::size_t count) const {
+  if (!narrow_) return buffer_of(device().context(), columns, count);
+  std::vector<std::uint16_t> narrow(columns, columns + count);
+  narrow.resize(count + count % 2);  // shaders read two at a time
+  return buffer_of(device().context(), narrow.data(), narrow.size());
+}
+
+ByteCount CsrOnDevice::bytes() const {
+  std::size_t entries = 0;
+  std::size_t indices = 0;
+  for (const Block& block : blocks_) {
+    entries += block.values.bytes();
+    indices += block.columns.bytes() + block.row_begin.bytes();
+  }
+  return {{{"entries", entries}, {"indices", indices}}};
+}
+
+void CsrOnDevice::dispatch(Index columns) const {
+  dispatch_rows(product_, 0, 1, columns);
+}
+
+void CsrOnDevice::dispatch_sum(Index first, Index step, Index columns) const {
+  dispatch_rows(sum_, first, step, (columns - first + step - 1) / step);
+}
+
+void CsrOnDevice::dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const {
+  const Index rows_together = sharing_of(strategy_).invocations / sharing_of(strategy_).lanes;
+  for (const Block& block : blocks_) {
+    block.values.bind(values_binding);
+    block.columns.bind(columns_binding);
+    block.row_begin.bind(row_begin_binding);
+    shaders.for_columns(device(), count, [&](const GlProgram& program, Index column) {
+      program.set("first_row", block.first_row);
+      program.set("block_rows", block.rows);
+      program.set("x_stride", FieldBuffers::padded(cols()));
+      program.set("y_stride", FieldBuffers::padded(rows()));
+      program.set("first_column", first + step * column);
+      program.set("column_step", step);
+      program.dispatch((block.rows + rows_together - 1) / rows_together);
+    });
+  }
+}
+
+}  // namespace radiosity

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "gpu/device_matrix.hpp"
+#include "gpu/shader_family.hpp"
+#include "kernels/csr_matrix.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace radiosity {
+
+/// A sparse matrix by compressed rows on the device, in float32 with columns in 16 bits up to 65536 of them,
+/// split by rows where its entries take more than a storage block.
+class CsrOnDevice final : public DeviceMatrix {
+ public:
+  /// Copies the matrix. Throws Error where a row does not fit into a storage block, or the matrix not into
+  /// the device.
+  CsrOnDevice(std::shared_ptr<GlDevice> device, const CsrMatrix<float>& matrix, RowStrategy strategy);
+
+  ByteCount bytes() const override;
+
+  /// Y += M X, both bound as FieldBuffers says, for the columns first, first + step, ... below `columns`: for
+  /// matrices that are a part of another.
+  void dispatch_sum(Index first, Index step, Index columns) const;
+
+  /// Over how many storage blocks it is split.
+  std::size_t blocks() const { return blocks_.size(); }
+
+ protected:
+  void dispatch(Index columns) const override;
+  double scale() const override { return 1; }
+
+ private:
+  struct Block {
+    Index first_row;
+    Index rows;
+    GlBuffer values;
+    GlBuffer columns;
+    GlBuffer row_begin;  ///< rows + 1 numbers, from the block's first entry on
+  };
+  void upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row);
+  GlBuffer upload_columns(const std::int32_t* columns, std::size_t count) const;
+  /// For `count` columns first, first + step, ...
+  void dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const;
+
+  RowStrategy strategy_;
+  bool narrow_;  ///< columns in 16 bits
+  ShaderFamily product_;
+  ShaderFamily sum_;  ///< Y += M X
+  std::vector<Block> blocks_;
+};
+
+}  // namespace radiosity

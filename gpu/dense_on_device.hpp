@@ -1,0 +1,52 @@
+#pragma once
+
+#include "gpu/device_matrix.hpp"
+#include "gpu/shader_family.hpp"
+#include "kernels/half.hpp"
+#include "kernels/row_major_matrix.hpp"
+#include "kernels/symmetric_tiles.hpp"
+
+#include <vector>
+
+namespace radiosity {
+
+/// Every entry of a matrix on the device, by rows padded to a multiple of 64 numbers, in float32 or binary16.
+/// A symmetric kernel is stored in full, both halves and its zero tiles: twice the memory, but every product
+/// reads each row as one stream and needs no atomic sums. Rows are split over as many storage blocks as the
+/// driver's limit asks for.
+template <typename Scalar>
+class DenseOnDevice final : public DeviceMatrix {
+ public:
+  /// Copies the matrix. Throws Error where 64 rows do not fit into a storage block, or the matrix not into
+  /// the device.
+  DenseOnDevice(std::shared_ptr<GlDevice> device, const SymmetricTiles<Scalar>& kernel, RowStrategy strategy);
+  DenseOnDevice(std::shared_ptr<GlDevice> device, const RowMajorMatrix<Scalar>& matrix, RowStrategy strategy);
+
+  ByteCount bytes() const override;
+  /// Over how many storage blocks it is split.
+  std::size_t blocks() const { return blocks_.size(); }
+
+ protected:
+  void dispatch(Index columns) const override;
+  double scale() const override { return scale_; }
+
+ private:
+  struct Block {
+    Index first_row;
+    Index rows;  ///< a multiple of 64, padding included
+    GlBuffer entries;
+  };
+  template <typename ReadStrip>
+  void upload(const ReadStrip& read_strip);
+
+  Index stride_;
+  double scale_;
+  RowStrategy strategy_;
+  ShaderFamily shaders_;
+  std::vector<Block> blocks_;
+};
+
+extern template class DenseOnDevice<float>;
+extern template class DenseOnDevice<Half>;
+
+}  // namespace radiosity

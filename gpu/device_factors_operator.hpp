@@ -1,0 +1,45 @@
+#pragma once
+
+#include "gpu/device_operator.hpp"
+#include "gpu/factors_on_device.hpp"
+#include "operators/low_rank_operator.hpp"
+
+#include <memory>
+
+namespace radiosity {
+
+/// R U V' with both factors on the device, for solvers that ask for factors (Woodbury).
+class DeviceFactorsOperator final : public DeviceMatrixOperator, public LowRankFactors {
+ public:
+  DeviceFactorsOperator(const MatrixOperator& original, std::unique_ptr<FactorsOnDevice> factors,
+                        DeviceOrigin origin);
+
+  Index rank() const override { return factors_->rank(); }
+  void multiply_left(const ConstFieldRef& C, FieldRef Y) const override { factors_->multiply_left(C, Y); }
+  void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override {
+    factors_->multiply_right_transposed(X, C);
+  }
+  const Eigen::MatrixXd& albedo() const override { return reflectance(); }
+  std::size_t right_bytes() const override { return factors_->right_bytes(); }
+
+ private:
+  const FactorsOnDevice* factors_;  ///< the matrix of the operator
+};
+
+/// The same for a symmetric kernel: R A^{-1/2} U V' A^{1/2}.
+class DeviceKernelFactorsOperator final : public DeviceKernelOperator, public LowRankFactors {
+ public:
+  DeviceKernelFactorsOperator(const KernelOperator& original, std::unique_ptr<FactorsOnDevice> factors,
+                              DeviceOrigin origin);
+
+  Index rank() const override { return factors_->rank(); }
+  void multiply_left(const ConstFieldRef& C, FieldRef Y) const override;
+  void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override;
+  const Eigen::MatrixXd& albedo() const override { return reflectance(); }
+  std::size_t right_bytes() const override { return factors_->right_bytes(); }
+
+ private:
+  const FactorsOnDevice* factors_;  ///< the matrix of the operator
+};
+
+}  // namespace radiosity

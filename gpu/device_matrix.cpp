@@ -1,0 +1,48 @@
+#include "gpu/device_matrix.hpp"
+
+#include "foundation/error.hpp"
+
+#include <algorithm>
+
+namespace radiosity {
+namespace {
+
+constexpr Index columns_sent_at_most = 64;
+
+/// As many as fit into a storage block. Throws Error if not one does.
+Index columns_sent_together(const GlContext& context, Index rows) {
+  const Index column_bytes = FieldBuffers::padded(rows) * static_cast<Index>(sizeof(float));
+  const std::int64_t limit = context.limits().storage_block_bytes;
+  if (column_bytes > limit)
+    fail(
+        "a field of {} numbers takes {} bytes, and a storage block of '{}' at most {}: use fewer patches or "
+        "--device cpu",
+        rows, column_bytes, context.renderer(), limit);
+  return std::clamp<Index>(limit / column_bytes, 1, columns_sent_at_most);
+}
+
+}  // namespace
+
+void DeviceMatrix::multiply(const ConstFieldRef& X, FieldRef Y) const {
+  run(X, Y, scale(), [this](Index columns) { dispatch(columns); });
+}
+
+void DeviceMatrix::run(const ConstFieldRef& X, FieldRef Y, double scale,
+                       const std::function<void(Index columns)>& dispatch_columns) const {
+  const GlContext& context = *device_->context();
+  const CurrentContext current(context);
+  const Index together = columns_sent_together(context, std::max(X.rows(), Y.rows()));
+  for (Index first = 0; first < X.cols(); first += together) {
+    const Index columns = std::min(together, X.cols() - first);
+    device_->fields().send(X.middleCols(first, columns), Y.rows());
+    {
+      const GlTimer::Measurement measurement(device_->timer());
+      dispatch_columns(columns);
+    }
+    device_->fields().receive(scale, Y.middleCols(first, columns));
+    device_seconds_ = device_seconds_ + device_->timer().seconds();
+  }
+  context.check("a product");
+}
+
+}  // namespace radiosity

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "gpu/gl_device.hpp"
+#include "operators/linear_operator.hpp"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+namespace radiosity {
+
+/// A rows x cols matrix in the memory of a device, in float32 arithmetic. Products may be asked for on any
+/// thread; they wait for each other.
+class DeviceMatrix {
+ public:
+  virtual ~DeviceMatrix() = default;
+
+  Index rows() const { return rows_; }
+  Index cols() const { return cols_; }
+
+  /// Y = M X for c > 0 columns, as products of SymmetricTiles<float> have it (kernels/products.hpp) but for
+  /// the order of sums and the scaling of X, which is one a column. Y is written, never read.
+  void multiply(const ConstFieldRef& X, FieldRef Y) const;
+
+  /// What it takes of the device's memory, by part.
+  virtual ByteCount bytes() const = 0;
+
+  /// Time of the device in products so far: without sending and receiving fields.
+  double device_seconds() const { return device_seconds_; }
+
+ protected:
+  DeviceMatrix(std::shared_ptr<GlDevice> device, Index rows, Index cols)
+      : device_(std::move(device)), rows_(rows), cols_(cols) {}
+  DeviceMatrix(const DeviceMatrix&) = delete;
+  DeviceMatrix& operator=(const DeviceMatrix&) = delete;
+
+  GlDevice& device() const { return *device_; }
+
+  /// Y = scale times what `dispatch_columns` makes of X, both bound as FieldBuffers says; timed.
+  void run(const ConstFieldRef& X, FieldRef Y, double scale,
+           const std::function<void(Index columns)>& dispatch_columns) const;
+
+  /// Has the device compute Y of `columns` columns from X, both bound as FieldBuffers says.
+  virtual void dispatch(Index columns) const = 0;
+  /// M is this times the stored numbers.
+  virtual double scale() const = 0;
+
+ private:
+  std::shared_ptr<GlDevice> device_;
+  Index rows_;
+  Index cols_;
+  mutable std::atomic<double> device_seconds_{0};
+};
+
+}  // namespace radiosity

@@ -1,0 +1,42 @@
+#include "gpu/device_operator.hpp"
+
+#include "operators/reflectance.hpp"
+#include "operators/storage_choice.hpp"
+
+#include <utility>
+
+namespace radiosity {
+
+DeviceUse OnDevice::use() const {
+  DeviceUse use = origin_.use;
+  for (const auto& matrix : matrices_) use.device_seconds += matrix->device_seconds();
+  return use;
+}
+
+ByteCount OnDevice::bytes_with_diagonals(Index n, Index channels) const {
+  ByteCount bytes = matrices_.front()->bytes();
+  for (std::size_t other = 1; other < matrices_.size(); ++other) {
+    const ByteCount further = matrices_[other]->bytes();
+    for (std::size_t part = 0; part < further.parts.size(); ++part)
+      bytes.parts[part].second += further.parts[part].second;
+  }
+  bytes.parts.emplace_back("diagonals", diagonal_bytes(n, channels));
+  return bytes;
+}
+
+DeviceKernelOperator::DeviceKernelOperator(const KernelOperator& original,
+                                           std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
+    : KernelOperator(original.root_area(), original.reflectance()),
+      OnDevice(std::move(matrix), std::move(origin)) {}
+
+DeviceMatrixOperator::DeviceMatrixOperator(const MatrixOperator& original,
+                                           std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
+    : OnDevice(std::move(matrix), std::move(origin)), reflectance_(original.reflectance()) {}
+
+void DeviceMatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
+  Field product(X.rows(), X.cols());
+  matrix().multiply(X, product);
+  add_product(alpha * reflectance_.array(), product, beta, Y);
+}
+
+}  // namespace radiosity

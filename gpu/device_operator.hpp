@@ -1,0 +1,90 @@
+#pragma once
+
+#include "gpu/device_matrix.hpp"
+#include "operators/kernel_operator.hpp"
+#include "operators/matrix_operator.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace radiosity {
+
+/// What an operator on the device keeps of the one on the CPU that it was copied from.
+struct DeviceOrigin {
+  std::string spec;  ///< what describe() gives
+  std::string remark;
+  Certificate certificate;
+  DeviceUse use;
+};
+
+/// What operators that compute with copies of matrices on the device have.
+class OnDevice {
+ public:
+  virtual ~OnDevice() = default;
+  /// Found when it is compared with the CPU's (DeviceUse::difference_max).
+  void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
+
+ protected:
+  using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
+
+  OnDevice(std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin) : origin_(std::move(origin)) {
+    matrices_.push_back(std::move(matrix));
+  }
+  OnDevice(Matrices matrices, DeviceOrigin origin)
+      : matrices_(std::move(matrices)), origin_(std::move(origin)) {}
+
+  const DeviceMatrix& matrix(Index index = 0) const { return *matrices_[static_cast<std::size_t>(index)]; }
+  const DeviceOrigin& origin() const { return origin_; }
+  DeviceUse use() const;
+  ByteCount bytes_with_diagonals(Index n, Index channels) const;
+
+ private:
+  Matrices matrices_;
+  DeviceOrigin origin_;
+};
+
+/// R A^{-1/2} K A^{1/2} with K on the device, its diagonals on the CPU in double precision.
+class DeviceKernelOperator : public KernelOperator, public OnDevice {
+ public:
+  /// `matrix` is K; areas and reflectances are those of `original`.
+  DeviceKernelOperator(const KernelOperator& original, std::unique_ptr<DeviceMatrix> matrix,
+                       DeviceOrigin origin);
+
+  ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
+  std::string describe() const override { return origin().spec; }
+  std::string remark() const override { return origin().remark; }
+  double product_roundoff() const override { return 0x1p-24; }
+  Certificate certificate() const override { return origin().certificate; }
+  std::optional<DeviceUse> device_use() const override { return use(); }
+
+ protected:
+  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { matrix().multiply(X, Y); }
+};
+
+/// R F with F on the device.
+class DeviceMatrixOperator : public LinearOperator, public OnDevice {
+ public:
+  /// `matrix` is F; reflectances are those of `original`.
+  DeviceMatrixOperator(const MatrixOperator& original, std::unique_ptr<DeviceMatrix> matrix,
+                       DeviceOrigin origin);
+
+  const Eigen::MatrixXd& reflectance() const { return reflectance_; }
+  Index size() const override { return reflectance_.rows(); }
+  Index channels() const override { return reflectance_.cols(); }
+  ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
+  std::string describe() const override { return origin().spec; }
+  std::string remark() const override { return origin().remark; }
+  double product_roundoff() const override { return 0x1p-24; }
+  Certificate certificate() const override { return origin().certificate; }
+  std::optional<DeviceUse> device_use() const override { return use(); }
+
+ protected:
+  void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
+
+ private:
+  Eigen::MatrixXd reflectance_;
+};
+
+}  // namespace radiosity

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "gpu/field_buffers.hpp"
+#include "gpu/gl_program.hpp"
+#include "gpu/gl_timer.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace radiosity {
+
+/// How rows of a matrix are shared out: a work group for some rows, whose sums are put together in shared
+/// memory, so that neighbouring invocations read neighbouring numbers (graphics cards); or a row for each
+/// invocation, without shared memory and barriers (drivers that compute on the CPU).
+enum class RowStrategy { group, invocation };
+
+/// A context with what all operators on it share: compiled shaders, the buffers that fields pass through, a
+/// timer. Everything but open() is called with the context current.
+class GlDevice {
+ public:
+  static std::shared_ptr<GlDevice> open(const GlContextOptions& options = {});
+
+  const std::shared_ptr<const GlContext>& context() const { return context_; }
+  FieldBuffers& fields() { return fields_; }
+  GlTimer& timer() { return timer_; }
+  /// Compiled when it is asked for first.
+  const GlProgram& program(const ShaderVariant& variant);
+  /// What suits the renderer.
+  RowStrategy preferred_strategy() const {
+    return context_->software() ? RowStrategy::invocation : RowStrategy::group;
+  }
+
+ private:
+  explicit GlDevice(const std::shared_ptr<const GlContext>& context)
+      : context_(context), fields_(context), timer_(context) {}
+
+  std::shared_ptr<const GlContext> context_;
+  FieldBuffers fields_;
+  GlTimer timer_;
+  std::vector<std::pair<ShaderVariant, std::unique_ptr<GlProgram>>> programs_;
+};
+
+/// "Mesa llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6 (a software renderer: ...)",
+/// for a terminal.
+std::string renderer_text(const GlContext& context);
+
+}  // namespace radiosity

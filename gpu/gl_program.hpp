@@ -1,0 +1,38 @@
+#pragma once
+
+#include "gpu/gl_context.hpp"
+#include "gpu/shader_sources.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace radiosity {
+
+/// A compute shader, compiled. The context is current in every call but the destructor's.
+class GlProgram {
+ public:
+  /// Throws Error with the driver's log where the text does not compile.
+  GlProgram(std::shared_ptr<const GlContext> context, const ShaderVariant& variant);
+  GlProgram(std::shared_ptr<const GlContext> context, const std::string& name, const std::string& text);
+  ~GlProgram();
+  GlProgram(const GlProgram&) = delete;
+  GlProgram& operator=(const GlProgram&) = delete;
+
+  /// What set() and dispatch() mean until another program is used.
+  void use() const;
+  /// Sets a uniform of type uint. Throws UsageError where the shader declares none of that name.
+  void set(const char* uniform, std::int64_t value) const;
+  /// At least `groups` work groups, numbered by group_index() of groups.glsl; groups > 0.
+  void dispatch(std::int64_t groups) const;
+
+ private:
+  std::shared_ptr<const GlContext> context_;
+  std::string file_;
+  unsigned name_ = 0;
+  std::vector<std::pair<std::string, int>> uniforms_;
+};
+
+}  // namespace radiosity

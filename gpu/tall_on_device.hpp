@@ -1,0 +1,53 @@
+#pragma once
+
+#include "gpu/shader_family.hpp"
+#include "kernels/tall_matrix.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace radiosity {
+
+/// A factor of n x k on the device, in panels of 64 rows as TallMatrix has them: a copy, number for number,
+/// in which the 64 invocations of a work group find a column of a panel side by side. Split by panels where
+/// it takes more than a storage block. Fields of n rows lie as FieldBuffers says, coefficients of k alike.
+class TallOnDevice {
+ public:
+  static constexpr unsigned partial_binding = 3;
+  static constexpr unsigned order_binding = 5;
+
+  /// `ordered`: row e of products goes to row order[e] of Y, with that list bound to order_binding. Throws
+  /// Error where a panel does not fit into a storage block, or the factor not into the device.
+  TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, bool ordered = false);
+
+  Index rows() const { return rows_; }
+  Index columns() const { return columns_; }
+  double scale() const { return scale_; }
+  std::size_t bytes() const;
+
+  /// Y = M C: coefficients are bound as X, the field as Y, both for FieldBuffers' bindings. Without scale().
+  void multiply(Index columns) const;
+
+  /// Sums of M' X, X bound as FieldBuffers' X, over chunks() of rows, which are bound to partial_binding: sum
+  /// p of column c and chunk i is number (i columns + c) padded(k) + p. Without scale().
+  void multiply_transposed(Index columns) const;
+  Index chunks() const;
+
+ private:
+  struct Block {
+    Index first_panel;
+    Index panels;
+    GlBuffer entries;
+  };
+
+  std::shared_ptr<GlDevice> device_;
+  Index rows_;
+  Index columns_;
+  double scale_;
+  std::vector<Block> blocks_;
+  ShaderFamily product_;
+  ShaderFamily transposed_;
+};
+
+}  // namespace radiosity

@@ -1,0 +1,134 @@
+#include "gpu/texture_on_device.hpp"
+
+#include "foundation/error.hpp"
+#include "kernels/stored_number.hpp"
+#include "kernels/texture_products.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <epoxy/gl.h>
+
+namespace radiosity {
+namespace {
+
+constexpr unsigned blocks_binding = 0;
+constexpr unsigned tables_binding = 3;
+constexpr int invocations_of_texture_group = 64;
+constexpr std::size_t table_numbers = std::size_t{3} * texture_table;
+
+/// Invocations that share a row of blocks.
+int lanes_of(RowStrategy strategy) {
+  return strategy == RowStrategy::group ? invocations_of_texture_group : 1;
+}
+
+/// Above every channel's scale and every exact entry, so that in float32 all of them are below 1.
+double common_scale(const ColourTexture& texture, const std::vector<CsrMatrix<float>>& exact) {
+  double largest = 0;
+  for (int channel = 0; channel < texture.channels(); ++channel)
+    largest = std::max(largest, std::fabs(texture.scale(channel)));
+  for (const CsrMatrix<float>& matrix : exact)
+    for (const float value : matrix.value) largest = std::max(largest, std::fabs(static_cast<double>(value)));
+  return storage_scale<float>(largest);
+}
+
+std::vector<CsrMatrix<float>> compressed_rows(const std::vector<ExactRows>& exact) {
+  std::vector<CsrMatrix<float>> matrices;
+  matrices.reserve(exact.size());
+  for (const ExactRows& rows : exact) matrices.push_back(rows.compressed_rows());
+  return matrices;
+}
+
+GlBuffer empty_tables(const std::shared_ptr<const GlContext>& context) {
+  const CurrentContext current(*context);
+  return {context, (table_numbers + 3) * sizeof(float)};
+}
+
+}  // namespace
+
+TextureOnDevice::TextureOnDevice(std::shared_ptr<GlDevice> device_of_texture, const ColourTexture& texture,
+                                 const std::vector<ExactRows>& exact, RowStrategy strategy)
+    : DeviceMatrix(device_of_texture, texture.rows(), texture.columns()),
+      channels_(texture.channels()),
+      block_columns_(texture.block_columns()),
+      strategy_(strategy),
+      tables_(empty_tables(device_of_texture->context())) {
+  std::vector<CsrMatrix<float>> matrices = compressed_rows(exact);
+  scale_ = common_scale(texture, matrices);
+  const CurrentContext current(*device().context());
+  upload_blocks(texture);
+  upload_tables(texture);
+  program_ = &device().program({"texture_product.comp",
+                                {{"CHANNELS", texture.channels()},
+                                 {"LOGARITHMIC", texture.curve().logarithmic ? 1 : 0},
+                                 {"INVOCATIONS", invocations_of_texture_group},
+                                 {"LANES", lanes_of(strategy)}}});
+  for (CsrMatrix<float>& matrix : matrices) {
+    // A power of two: nothing is lost.
+    for (float& value : matrix.value) value = static_cast<float>(static_cast<double>(value) / scale_);
+    exact_.push_back(std::make_unique<CsrOnDevice>(device_of_texture, matrix, strategy));
+  }
+}
+
+void TextureOnDevice::upload_blocks(const ColourTexture& texture) {
+  const GlContext& context = *device().context();
+  const Index row_bytes = block_columns_ * static_cast<Index>(sizeof(Bc1Block));
+  const Index most = row_bytes == 0 ? 1 : context.limits().storage_block_bytes / row_bytes;
+  if (most == 0)
+    fail(
+        "a row of blocks takes {} bytes, and a storage block of '{}' at most {}: use fewer patches or "
+        "--device cpu",
+        row_bytes, context.renderer(), context.limits().storage_block_bytes);
+  for (Index first = 0; first < texture.block_rows(); first += most) {
+    const Index count = std::min(most, texture.block_rows() - first);
+    GlBuffer blocks(device().context(), static_cast<std::size_t>(count * row_bytes));
+    blocks.write(0, blocks.bytes(), texture.block_row(first));
+    parts_.push_back({first, count, std::move(blocks)});
+  }
+  context.check("sending a texture");
+}
+
+void TextureOnDevice::upload_tables(const ColourTexture& texture) {
+  std::array<float, table_numbers + 3> numbers{};
+  std::copy_n(texture.tables(), table_numbers, numbers.begin());
+  for (int channel = 0; channel < texture.channels(); ++channel)
+    numbers[table_numbers + static_cast<std::size_t>(channel)] =
+        static_cast<float>(texture.scale(channel) / scale_);
+  tables_.write(0, sizeof numbers, numbers.data());
+}
+
+ByteCount TextureOnDevice::bytes() const {
+  std::size_t texels = tables_.bytes();
+  for (const Part& part : parts_) texels += part.blocks.bytes();
+  ByteCount bytes{{{"texels", texels}, {"exact", 0}, {"indices", 0}}};
+  for (const auto& exact : exact_) {
+    const ByteCount own = exact->bytes();
+    for (std::size_t part = 0; part < own.parts.size(); ++part)
+      bytes.parts[part + 1].second += own.parts[part].second;
+  }
+  return bytes;
+}
+
+void TextureOnDevice::dispatch(Index columns) const {
+  for (const Part& part : parts_)
+    for (Index first = 0; first < columns; first += channels_) dispatch_part(part, first);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  for (std::size_t channel = 0; channel < exact_.size(); ++channel)
+    exact_[channel]->dispatch_sum(static_cast<Index>(channel), channels_, columns);
+}
+
+void TextureOnDevice::dispatch_part(const Part& part, Index first_column) const {
+  part.blocks.bind(blocks_binding);
+  tables_.bind(tables_binding);
+  const Index rows_together = invocations_of_texture_group / lanes_of(strategy_);
+  const GlProgram& program = *program_;
+  program.use();
+  program.set("block_columns", block_columns_);
+  program.set("first_block_row", part.first_block_row);
+  program.set("part_block_rows", part.block_rows);
+  program.set("y_stride", FieldBuffers::padded(rows()));
+  program.set("first_column", first_column);
+  program.dispatch((part.block_rows + rows_together - 1) / rows_together);
+}
+
+}  // namespace radiosity

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "gpu/csr_on_device.hpp"
+#include "gpu/device_matrix.hpp"
+#include "kernels/colour_texture.hpp"
+#include "kernels/exact_rows.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace radiosity {
+
+/// Document 000's compressed matrix on the device: BC1 blocks in a storage buffer, which the shader decodes
+/// itself (texture units of different vendors round differently, and the software driver is slow at it), and
+/// the entries that are kept apart, a sparse matrix a channel. Column j of a field belongs to channel j mod
+/// channels.
+class TextureOnDevice final : public DeviceMatrix {
+ public:
+  /// `exact`: one a channel. Throws Error where a row of blocks does not fit into a storage block, or the
+  /// matrix not into the device.
+  TextureOnDevice(std::shared_ptr<GlDevice> device, const ColourTexture& texture,
+                  const std::vector<ExactRows>& exact, RowStrategy strategy);
+
+  ByteCount bytes() const override;
+
+ protected:
+  void dispatch(Index columns) const override;
+  double scale() const override { return scale_; }
+
+ private:
+  struct Part {
+    Index first_block_row;
+    Index block_rows;
+    GlBuffer blocks;
+  };
+  void upload_blocks(const ColourTexture& texture);
+  void upload_tables(const ColourTexture& texture);
+  void dispatch_part(const Part& part, Index first_column) const;
+
+  Index channels_;
+  Index block_columns_;
+  double scale_;
+  RowStrategy strategy_;
+  const GlProgram* program_ = nullptr;  ///< the device's
+  std::vector<Part> parts_;
+  GlBuffer tables_;  ///< of ColourTexture, and the part that each channel's scale is of scale()
+  std::vector<std::unique_ptr<CsrOnDevice>> exact_;
+};
+
+}  // namespace radiosity

@@ -1,0 +1,192 @@
+#include "gpu/upload.hpp"
+
+#include "foundation/error.hpp"
+#include "foundation/random.hpp"
+#include "foundation/spec.hpp"
+#include "foundation/stopwatch.hpp"
+#include "gpu/bc4_on_device.hpp"
+#include "gpu/csr_on_device.hpp"
+#include "gpu/dense_on_device.hpp"
+#include "gpu/device_colour_operator.hpp"
+#include "gpu/device_factors_operator.hpp"
+#include "gpu/device_operator.hpp"
+#include "gpu/low_rank_on_device.hpp"
+#include "gpu/sparse_v_on_device.hpp"
+#include "gpu/texture_on_device.hpp"
+#include "operators/low_rank_operator.hpp"
+#include "operators/sparse_v_operator.hpp"
+#include "operators/stored_matrix.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace radiosity {
+namespace {
+
+[[noreturn]] void refuse(const std::string& spec) {
+  fail<UsageError>("{} cannot run with --device gl; those that can are {}", spec,
+                   fmt::join(uploadable_specs(), ", "));
+}
+
+std::string spec_on_device(const LinearOperator& original, std::optional<RowStrategy> strategy) {
+  if (!strategy) return original.describe();
+  return with_keys(original.describe(),
+                   *strategy == RowStrategy::group ? "strategy=group" : "strategy=invocation");
+}
+
+/// Copies one operator to a device, matrix by matrix.
+class Uploader {
+ public:
+  Uploader(std::shared_ptr<GlDevice> device, const LinearOperator& original,
+           std::optional<RowStrategy> strategy)
+      : device_(std::move(device)),
+        original_(original),
+        strategy_(strategy.value_or(device_->preferred_strategy())),
+        spec_(spec_on_device(original, strategy)) {}
+
+  /// Throws UsageError for operators that have no form for the device.
+  std::unique_ptr<LinearOperator> copy() const {
+    if (const auto* stored = dynamic_cast<const HasStoredMatrix*>(&original_))
+      return with_diagonals(copy_stored(stored->stored()));
+    if (const auto* stored = dynamic_cast<const HasStoredColours*>(&original_)) return copy_colours(*stored);
+    if (const auto* stored = dynamic_cast<const HasCompressedColours*>(&original_))
+      return copy_texture(*stored);
+    if (const auto* factors = dynamic_cast<const LowRankOperator<float>*>(&original_))
+      return with_factors<DeviceFactorsOperator, LowRankOnDevice>(*factors, factors->left_factor(),
+                                                                  factors->right_factor());
+    if (const auto* factors = dynamic_cast<const SparseVOperator<float>*>(&original_))
+      return with_factors<DeviceFactorsOperator, SparseVOnDevice>(*factors, factors->left_factor(),
+                                                                  factors->right_factor());
+    if (const auto* factors = dynamic_cast<const LowRankKernelOperator<float>*>(&original_))
+      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, factors->factor(),
+                                                                        factors->values());
+    refuse(original_.describe());
+  }
+
+ private:
+  using Copy = std::unique_ptr<DeviceMatrix>;
+
+  std::unique_ptr<LinearOperator> with_diagonals(Copy matrix) const {
+    if (const auto* kernel = dynamic_cast<const KernelOperator*>(&original_))
+      return std::make_unique<DeviceKernelOperator>(*kernel, std::move(matrix), origin());
+    return std::make_unique<DeviceMatrixOperator>(dynamic_cast<const MatrixOperator&>(original_),
+                                                  std::move(matrix), origin());
+  }
+
+  template <typename Operator, typename Factors, typename Original, typename Left, typename Right>
+  std::unique_ptr<LinearOperator> with_factors(const Original& original, const Left& left,
+                                               const Right& right) const {
+    auto factors = std::make_unique<Factors>(device_, left, right);
+    return std::make_unique<Operator>(original, std::move(factors), origin());
+  }
+
+  std::unique_ptr<LinearOperator> copy_texture(const HasCompressedColours& stored) const {
+    const CompressedColours& compressed = stored.compressed_colours();
+    Copy matrix;
+    if (compressed.texture() != nullptr)
+      matrix =
+          std::make_unique<TextureOnDevice>(device_, *compressed.texture(), compressed.exact(), strategy_);
+    else if (Bc4OnDevice::takes(compressed.tiles()->front()))
+      matrix = std::make_unique<Bc4OnDevice>(device_, *compressed.tiles(), strategy_);
+    else
+      refuse(original_.describe());
+    return std::make_unique<DeviceTextureOperator>(dynamic_cast<const ColourOperator&>(original_),
+                                                   std::move(matrix), compressed.order(), origin());
+  }
+
+  std::unique_ptr<LinearOperator> copy_colours(const HasStoredColours& stored) const {
+    std::vector<Copy> matrices;
+    for (const StoredMatrix& matrix : stored.stored_colours()) matrices.push_back(copy_stored(matrix));
+    return std::make_unique<DeviceBouncesOperator>(dynamic_cast<const ColourOperator&>(original_),
+                                                   std::move(matrices), origin());
+  }
+
+  Copy copy_stored(const StoredMatrix& stored) const {
+    return std::visit([this](const auto* matrix) { return copy_matrix(*matrix); }, stored);
+  }
+  Copy copy_matrix(const SymmetricTiles<float>& kernel) const { return dense(kernel); }
+  Copy copy_matrix(const SymmetricTiles<Half>& kernel) const { return dense(kernel); }
+  Copy copy_matrix(const RowMajorMatrix<float>& matrix) const { return dense(matrix); }
+  Copy copy_matrix(const RowMajorMatrix<Half>& matrix) const { return dense(matrix); }
+  Copy copy_matrix(const CsrMatrix<float>& matrix) const {
+    return std::make_unique<CsrOnDevice>(device_, matrix, strategy_);
+  }
+  /// Double precision is not for the device: few graphics cards are fast at it.
+  template <typename Other>
+  Copy copy_matrix(const Other&) const {
+    refuse(original_.describe());
+  }
+  template <template <typename> class Matrix, typename Scalar>
+  Copy dense(const Matrix<Scalar>& matrix) const {
+    return std::make_unique<DenseOnDevice<Scalar>>(device_, matrix, strategy_);
+  }
+
+  /// Called when everything is on the device.
+  DeviceOrigin origin() const {
+    const GlContext& context = *device_->context();
+    return {spec_,
+            original_.remark(),
+            original_.certificate(),
+            {"gl", context.renderer(), context.software(), 0, watch_.seconds(), 0}};
+  }
+
+  std::shared_ptr<GlDevice> device_;
+  const LinearOperator& original_;
+  RowStrategy strategy_;
+  std::string spec_;
+  Stopwatch watch_;
+};
+
+/// Both products are within 2 (n + 8) u |A| |X| of the true one; factors may have signs, whose terms cancel.
+double allowed_difference(const LinearOperator& original) {
+  return std::max(4 * (static_cast<double>(original.size()) + 8) * 0x1p-24, 1e-4);
+}
+
+}  // namespace
+
+const std::vector<std::string>& uploadable_specs() {
+  static const std::vector<std::string> specs = {
+      "dense:f32", "dense:f16",   "csr:f32",       "svd:k=64",     "rsvd:k=64",
+      "qr:k=64",   "2msc:k=64",   "sparse-v:k=64", "cur:k=64",     "wavelet:k=64",
+      "dct:k=64",  "bounces:k=3", "dxt:codec=bc1", "dxt:codec=bc4"};
+  return specs;
+}
+
+void require_uploadable(const std::string& spec) {
+  const std::string name = Spec::parse(spec).name();
+  const auto& specs = uploadable_specs();
+  if (std::none_of(specs.begin(), specs.end(),
+                   [&](const std::string& known) { return Spec::parse(known).name() == name; }))
+    refuse(spec);
+}
+
+double compare_products(const LinearOperator& original, const LinearOperator& copy,
+                        const std::string& renderer) {
+  RandomStream random(1);
+  const Field X = Field::NullaryExpr(original.size(), original.channels(), [&] { return random.uniform(); });
+  Field Y(X.rows(), X.cols());
+  Field Z(X.rows(), X.cols());
+  original.apply(X, Y);
+  copy.apply(X, Z);
+  if (Y.size() == 0) return 0;
+  const double difference = (Z - Y).cwiseAbs().maxCoeff();
+  const double largest = Y.cwiseAbs().maxCoeff();
+  if (!(difference <= allowed_difference(original) * largest))
+    fail(
+        "{} on '{}' is off by {:.1e} of the CPU's product: its driver computes something else; use --device "
+        "cpu",
+        original.describe(), renderer, difference / largest);
+  return largest == 0 ? 0 : difference / largest;
+}
+
+std::unique_ptr<LinearOperator> upload(const std::shared_ptr<GlDevice>& device,
+                                       const LinearOperator& original, std::optional<RowStrategy> strategy) {
+  auto copy = Uploader(device, original, strategy).copy();
+  dynamic_cast<OnDevice&>(*copy).set_difference(
+      compare_products(original, *copy, device->context()->renderer()));
+  return copy;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "compression/compressed_colours.hpp"
+#include "kernels/csr_matrix.hpp"
+#include "kernels/row_major_matrix.hpp"
+#include "kernels/symmetric_tiles.hpp"
+
+#include <variant>
+#include <vector>
+
+namespace radiosity {
+
+/// A matrix as an operator stores it, for who copies it elsewhere; it lives as long as the operator.
+using StoredMatrix =
+    std::variant<const SymmetricTiles<double>*, const SymmetricTiles<float>*, const SymmetricTiles<Half>*,
+                 const RowMajorMatrix<double>*, const RowMajorMatrix<float>*, const RowMajorMatrix<Half>*,
+                 const CsrMatrix<double>*, const CsrMatrix<float>*>;
+
+/// The side interface of operators that multiply with one matrix between their diagonals: the kernel K of a
+/// KernelOperator, or F of a MatrixOperator.
+class HasStoredMatrix {
+ public:
+  virtual ~HasStoredMatrix() = default;
+  virtual StoredMatrix stored() const = 0;
+};
+
+/// The side interface of ColourOperators that keep a full matrix for each distinct reflectance, in the order
+/// of DistinctReflectances.
+class HasStoredColours {
+ public:
+  virtual ~HasStoredColours() = default;
+  virtual std::vector<StoredMatrix> stored_colours() const = 0;
+};
+
+/// ... and of those that keep compressed ones.
+class HasCompressedColours {
+ public:
+  virtual ~HasCompressedColours() = default;
+  virtual const CompressedColours& compressed_colours() const = 0;
+};
+
+}  // namespace radiosity

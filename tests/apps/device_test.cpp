@@ -1,0 +1,80 @@
+#include "foundation/npy.hpp"
+#include "process.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace radiosity::test {
+namespace {
+
+/// Runs of the program on an OpenGL device; skipped where there is none, which ./check counts as a failure
+/// with CI=true.
+class Device : public testing::Test {
+ protected:
+  void SetUp() override {
+    const ProcessResult info = run({"info", "--device", "gl"});
+    if (info.exit_code == 0) return;
+    EXPECT_EQ(info.exit_code, 1);
+    EXPECT_NE(info.errors.find("libgl1-mesa-dri"), std::string::npos) << info.errors;
+    GTEST_SKIP() << info.errors;
+  }
+
+  ProcessResult run(const std::vector<std::string>& arguments) const {
+    return run_program(arguments, folder_.path());
+  }
+  nlohmann::json json(const std::string& file) const {
+    std::ifstream stream(folder_.path() / file);
+    return nlohmann::json::parse(stream);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Device, IsDescribedByInfo) {
+  const ProcessResult result = run({"info", "cube", "--device", "gl", "--json", "info.json"});
+  EXPECT_EQ(result.errors, "");
+  const auto device = json("info.json")["device"];
+  for (const char* key : {"renderer", "version"})
+    EXPECT_NE(result.output.find(device[key].get<std::string>()), std::string::npos) << key;
+  EXPECT_GT(device["storage_block_bytes"], 0);
+  EXPECT_EQ(run({"info", "cube", "--json", "cpu.json"}).exit_code, 0);
+  EXPECT_TRUE(json("cpu.json")["device"].is_null());
+}
+
+TEST_F(Device, IsNamedByEveryResultOfAComparison) {
+  const ProcessResult result =
+      run({"compare", "cornell-box-closed", "--patches", "150", "--device", "gl", "--operators", "dense:f32",
+           "csr:f32,closure=blocks", "bounces:k=2", "--lights", "area:1", "--json", "c.json", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto results = json("c.json")["results"];
+  ASSERT_EQ(results.size(), 3u);
+  for (const auto& entry : results) {
+    EXPECT_EQ(entry["device"], "gl");
+    EXPECT_NE(result.output.find(entry["renderer"].get<std::string>()), std::string::npos);
+    EXPECT_GT(entry["device_difference_max"], 0);
+    EXPECT_LT(entry["device_difference_max"], 1e-5);
+    EXPECT_EQ(entry["renderer"].get<std::string>().find("llvmpipe") != std::string::npos,
+              result.output.find("software renderer") != std::string::npos);
+  }
+  EXPECT_LT(results[0]["error"]["operator_frobenius"], 1e-6);
+}
+
+TEST_F(Device, SolvesAsTheCpuDoes) {
+  const std::vector<std::string> command = {
+      "solve", "cornell-box-closed", "--patches", "150", "--quiet", "-o", "B.npy", "--json", "B.json"};
+  ASSERT_EQ(run(command).exit_code, 0);
+  const Eigen::MatrixXd on_cpu = read_npy(folder_.path() / "B.npy");
+  std::vector<std::string> on_device = command;
+  on_device.insert(on_device.end(), {"--device", "gl"});
+  ASSERT_EQ(run(on_device).exit_code, 0);
+  EXPECT_EQ(json("B.json")["device"], "gl");
+  EXPECT_EQ(json("B.json")["operator"], "dense:f32");
+  EXPECT_LE((read_npy(folder_.path() / "B.npy") - on_cpu).norm(), 5e-6 * on_cpu.norm());
+}
+
+}  // namespace
+}  // namespace radiosity::test

@@ -1,0 +1,236 @@
+#include "gpu/dense_on_device.hpp"
+#include "gpu/gl_operators.hpp"
+#include "gpu/upload.hpp"
+#include "operators/low_rank_operator.hpp"
+#include "operators/operator_checks.hpp"
+#include "tests/conformance/transport_cases.hpp"
+#include "tests/gpu/device_test.hpp"
+
+#include <cctype>
+#include <string>
+
+namespace radiosity {
+namespace {
+
+double storage_roundoff(const std::string& spec) {
+  return spec.find("f16") != std::string::npos ? 0x1p-11 : 0x1p-24;
+}
+
+/// Every spec with either strategy.
+class DeviceOperators : public DeviceTest, public testing::WithParamInterface<std::string> {
+ protected:
+  static OperatorRegistry registry() { return gl_operators(device(), cpu_operators()); }
+};
+
+/// D1: the plain reference is T in long double; what is stored in float32 or binary16 may be off by n u.
+TEST_P(DeviceOperators, MultiplyAsThePlainArithmeticOfTheCpuDoes) {
+  for (const Index n : {0, 1, 6, 70})
+    for (TransportCase& data : transport_cases(n)) {
+      SCOPED_TRACE(data.name);
+      const auto transport = registry().make(GetParam(), data.form_factors);
+      allow_storage_error(data, storage_roundoff(GetParam()));
+      EXPECT_EQ(check_operator(*transport, data.reference), "");
+      EXPECT_EQ(check_certificate(*transport, data.reference, data.root_area), "");
+    }
+}
+
+class LimitedDevice : public DeviceTest {
+ protected:
+  /// Kernels of n patches, each in its own scale.
+  static FormFactors random_room(Index n) {
+    return symmetric_form_factors(random_kernel(n, 5), Eigen::VectorXd::Ones(n),
+                                  Eigen::MatrixXd::Constant(n, 1, 0.7));
+  }
+};
+
+TEST_F(LimitedDevice, SplitsWhatIsLargerThanAStorageBlockAndGivesTheSameBits) {
+  constexpr Index n = 300;  // five strips of 64 rows, of 64 x 320 numbers
+  const FormFactors form_factors = random_room(n);
+  const Field X = Field::Random(n, 5);
+  for (const char* strategy : {"strategy=group", "strategy=invocation"}) {
+    const std::string spec = with_keys("dense:f32", strategy);
+    const auto whole = gl_operators(device(), cpu_operators()).make(spec, form_factors);
+    const auto split =
+        gl_operators(device_with_blocks_of(2 * 64 * 320 * 4 + 4), cpu_operators()).make(spec, form_factors);
+    Field Y(n, 5);
+    Field Z(n, 5);
+    whole->apply(X, Y);
+    split->apply(X, Z);
+    EXPECT_EQ(Y, Z) << strategy;
+  }
+}
+
+TEST_F(LimitedDevice, SplitsIntoAsManyBlocksAsItMust) {
+  const auto kernel = convert<float>(*random_room(300).kernel);
+  for (const auto& [strips, blocks] : {std::pair{1, 5}, {2, 3}, {4, 2}, {5, 1}})
+    EXPECT_EQ(DenseOnDevice<float>(device_with_blocks_of(strips * 64 * 320 * 4), kernel, RowStrategy::group)
+                  .blocks(),
+              static_cast<std::size_t>(blocks));
+}
+
+TEST_F(LimitedDevice, SplitsFactorsSparseMatricesAndTexturesToo) {
+  constexpr Index n = 300;  // five panels of 64 rows, each of 2048 bytes with k = 8; five tiles of 2048 a row
+  const FormFactors form_factors = random_room(n);
+  const Field X = Field::Random(n, 5);
+  const auto whole = gl_operators(device(), cpu_operators());
+  const auto split_in = [&](Index bytes, const std::string& spec) {
+    Field Y(n, 5);
+    Field Z(n, 5);
+    whole.make(spec, form_factors)->apply(X, Y);
+    gl_operators(device_with_blocks_of(bytes), cpu_operators()).make(spec, form_factors)->apply(X, Z);
+    EXPECT_LE((Y - Z).norm(), 1e-6 * Y.norm()) << spec;
+  };
+  for (const char* spec :
+       {"svd:k=8", "svd:k=8,norm=area,method=lanczos", "sparse-v:k=8", "csr:f32", "dxt:reorder=none"})
+    split_in(2 * 2048, spec);
+  split_in(2 * 5 * 2048, "dxt:codec=bc4,reorder=none");
+}
+
+TEST_F(LimitedDevice, RefusesWhatDoesNotFitIntoItsStorageBlocks) {
+  const auto registry = gl_operators(device_with_blocks_of(64 * 320 * 4 - 1), cpu_operators());
+  EXPECT_NO_THROW(registry.make("dense:f16", random_room(300)));
+  try {
+    registry.make("dense:f32", random_room(300));
+    FAIL() << "it was not refused";
+  } catch (const Error& error) {
+    for (const char* part : {"81920", "81919", "fewer patches", "--device cpu"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(LimitedDevice, RefusesFieldsThatDoNotFitIntoItsStorageBlocks) {
+  const auto registry = gl_operators(device_with_blocks_of(320 * 4 - 1), cpu_operators());
+  try {
+    registry.make("sparse-v:k=1", random_room(300));
+    FAIL() << "it was not refused";
+  } catch (const Error& error) {
+    for (const char* part : {"1280", "1279", "--device cpu"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+using DeviceUses = LimitedDevice;
+
+TEST_F(DeviceUses, AreToldByTheOperatorAndByWhatIsWrappedAroundIt) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  for (const char* spec : {"dense:f32", "dense:f32,closure=symmetric", "dense:f16,closure=rows"}) {
+    const auto transport = registry.make(spec, random_room(70));
+    ASSERT_TRUE(transport->device_use().has_value()) << spec;
+    EXPECT_EQ(transport->device_use()->renderer, device()->context()->renderer());
+    EXPECT_GT(transport->device_use()->difference_max, 0) << "float32 sums in another order";
+    EXPECT_LT(transport->device_use()->difference_max, 70 * 0x1p-24);
+    EXPECT_GT(transport->device_use()->upload_seconds, 0);
+    EXPECT_GT(transport->device_use()->device_seconds, 0);
+  }
+  EXPECT_FALSE(cpu_operators().make("dense:f32", random_room(70))->device_use().has_value());
+}
+
+TEST_F(DeviceUses, TakeAFairPartOfTheTimeOfALargeProduct) {
+  constexpr Index n = 1000;
+  const auto transport = gl_operators(device(), cpu_operators()).make("dense:f32", random_room(n));
+  const Field X = Field::Random(n, 4);
+  Field Y(n, 4);
+  const double device_before = transport->device_use()->device_seconds;
+  const double all_before = transport->usage().seconds;
+  for (int repetition = 0; repetition < 3; ++repetition) transport->apply(X, Y);
+  const double on_device = transport->device_use()->device_seconds - device_before;
+  const double in_all = transport->usage().seconds - all_before;
+  EXPECT_LT(on_device, in_all);
+  EXPECT_GT(on_device, 0.05 * in_all);
+}
+
+TEST_F(DeviceUses, OfOperatorsWithoutAFormForTheDeviceAreRefusedWithAListOfThoseThatHaveOne) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  for (const char* spec : {"topk", "dense", "dense:f64"}) try {
+      registry.make(spec, random_room(6));
+      ADD_FAILURE() << spec << " was not refused";
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("dense:f32, dense:f16"), std::string::npos) << error.what();
+    }
+}
+
+/// A device that loses one entry of 130 x 130 is found out by the comparison with its original.
+TEST(CompareProducts, RefusesACopyThatComputesSomethingElse) {
+  const Index n = 130;
+  Eigen::MatrixXd kernel = random_kernel(n, 7);
+  const Eigen::VectorXd area = Eigen::VectorXd::Ones(n);
+  const Eigen::MatrixXd reflectance = Eigen::MatrixXd::Constant(n, 1, 0.7);
+  const auto original = cpu_operators().make("dense:f32", symmetric_form_factors(kernel, area, reflectance));
+  const auto rounded = cpu_operators().make("dense", symmetric_form_factors(kernel, area, reflectance));
+  EXPECT_LT(compare_products(*original, *rounded, "a device"), n * 0x1p-24);
+  kernel(3, 5) = kernel(5, 3) += 0.5 / static_cast<double>(n);
+  const auto wrong = cpu_operators().make("dense:f32", symmetric_form_factors(kernel, area, reflectance));
+  try {
+    compare_products(*original, *wrong, "a device");
+    ADD_FAILURE() << "it was not noticed";
+  } catch (const Error& error) {
+    for (const char* part : {"dense:f32", "a device", "--device cpu"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+std::string spec_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
+/// Operators that are made of approximations: the plain reference is the CPU's operator, entry by entry.
+class DeviceCopies : public DeviceOperators {
+ protected:
+  /// The keys at the end of a spec that only devices know.
+  static std::string strategy() {
+    const std::size_t begin = GetParam().find(",strategy=");
+    return begin == std::string::npos ? "" : GetParam().substr(begin);
+  }
+  static std::string without_strategy(const std::string& spec) {
+    return spec.substr(0, spec.size() - strategy().size());
+  }
+  static std::string with_strategy(const std::string& spec) { return spec + strategy(); }
+};
+
+TEST_P(DeviceCopies, MultiplyAsTheOperatorThatTheyAreCopiesOf) {
+  for (const Index n : {1, 70})
+    for (const TransportCase& data : transport_cases(n)) {
+      if (!data.form_factors.symmetric() && GetParam().find("norm=area") != std::string::npos) continue;
+      SCOPED_TRACE(data.name);
+      const auto original = cpu_operators().make(without_strategy(GetParam()), data.form_factors);
+      const auto copy = registry().make(GetParam(), data.form_factors);
+      EXPECT_EQ(copy->describe(), with_strategy(original->describe()));
+      EXPECT_EQ(copy->symmetric(), original->symmetric());
+      EXPECT_EQ(copy->global(), original->global());
+      EXPECT_EQ(check_operator(*copy, own_entries(*original)), "");
+      const auto* left = dynamic_cast<const LowRankFactors*>(original.get());
+      const auto* right = dynamic_cast<const LowRankFactors*>(copy.get());
+      ASSERT_EQ(left == nullptr, right == nullptr);
+      if (left != nullptr) {
+        const Field ones = Field::Ones(n, 1);
+        const Eigen::MatrixXd expected = left->multiply_between(ones).front();
+        EXPECT_LE((right->multiply_between(ones).front() - expected).norm(), 1e-5 * expected.norm());
+      }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stored, DeviceOperators,
+                         testing::Values("dense:f32,strategy=group", "dense:f32,strategy=invocation",
+                                         "dense:f16,strategy=group", "dense:f16,strategy=invocation",
+                                         "csr:f32,strategy=group", "csr:f32,strategy=invocation"),
+                         spec_name);
+
+INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
+                         testing::Values("svd:k=8", "svd:k=8,norm=area,method=lanczos", "2msc:k=8",
+                                         "sparse-v:k=8"),
+                         spec_name);
+INSTANTIATE_TEST_SUITE_P(Bounces, DeviceCopies,
+                         testing::Values("bounces:k=3,storage=f32", "bounces:k=2,storage=f16"), spec_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Textures, DeviceCopies,
+    testing::Values("dxt:reorder=rows,strategy=group", "dxt:reorder=rows,strategy=invocation",
+                    "dxt:bounces=3,reorder=none,map=linear", "dxt:codec=bc4,fill=1,strategy=group",
+                    "dxt:codec=bc4,map=linear,strategy=invocation", "dxt:bounces=2,codec=bc4,range=auto"),
+    spec_name);
+
+}  // namespace
+}  // namespace radiosity

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "gpu/shader_sources.hpp"
+
+#include <vector>
+
+namespace radiosity {
+
+/// Each shader with the largest constants that it is compiled with, in every precision.
+inline std::vector<ShaderVariant> shader_variants() {
+  std::vector<ShaderVariant> variants;
+  for (const int half : {0, 1}) {
+    variants.push_back(
+        {"dense_group.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 4}, {"INVOCATIONS", 128}}});
+    variants.push_back({"dense_invocation.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 64}}});
+  }
+  for (const int lanes : {1, 32})
+    for (const int present : {0, 1}) {
+      variants.push_back({"bc4_product.comp",
+                          {{"COLUMNS", 4}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
+      variants.push_back(
+          {"csr_rows.comp",
+           {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}, {"NARROW", present}, {"ADDS", present}}});
+      variants.push_back(
+          {"texture_product.comp",
+           {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
+    }
+  variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
+  for (const int present : {0, 1}) {
+    variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
+    variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
+    variants.push_back({"segment_sums.comp", {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}}});
+  }
+  return variants;
+}
+
+}  // namespace radiosity
