@@ -22,43 +22,44 @@ uniform uint slope_bits;
 shared vec4 sums[COLUMNS][INVOCATIONS];
 #endif
 
-// The number that a code stands for. A fused operation would change it in the fifth digit: base is near 2^30.
-float number(float code) {
-  precise float scaled = code * uintBitsToFloat(slope_bits);
+const float seventh = 1.0 / 7.0;
+const float fifth = 1.0 / 5.0;
+
 #if LOGARITHMIC
-  precise float bits = scaled + uintBitsToFloat(base_bits);
-  return code > 0 ? intBitsToFloat(int(bits)) : 0;
-#else
-  return scaled;
-#endif
+// The bits of the number that a code stands for. A fused operation would change it in the fifth digit: base is
+// near 2^30.
+int bits(float code) {
+  precise float scaled = code * uintBitsToFloat(slope_bits);
+  precise float sum = scaled + uintBitsToFloat(base_bits);
+  return int(sum);
 }
 
-float mixed(vec2 ends, float first_weight, float second_weight) {
-  precise float code = ends.x * first_weight + ends.y * second_weight;
-  return number(code);
-}
-
-// The eight numbers of a block, by index.
+// The eight numbers of a block, by index (kernels/tile_format.hpp, bc4_numbers).
 void palette(uint word, out vec4 low, out vec4 high) {
   vec2 ends = vec2(word & 0xffu, (word >> 8) & 0xffu);
-  low.x = number(ends.x);
-  low.y = number(ends.y);
-  if (ends.x > ends.y) {
-    low.z = mixed(ends, 6.0 / 7.0, 1.0 / 7.0);
-    low.w = mixed(ends, 5.0 / 7.0, 2.0 / 7.0);
-    high.x = mixed(ends, 4.0 / 7.0, 3.0 / 7.0);
-    high.y = mixed(ends, 3.0 / 7.0, 4.0 / 7.0);
-    high.z = mixed(ends, 2.0 / 7.0, 5.0 / 7.0);
-    high.w = mixed(ends, 1.0 / 7.0, 6.0 / 7.0);
-  } else {
-    low.z = mixed(ends, 0.8, 0.2);
-    low.w = mixed(ends, 0.6, 0.4);
-    high.x = mixed(ends, 0.4, 0.6);
-    high.y = mixed(ends, 0.2, 0.8);
-    high.z = 0;
-    high.w = number(255);
-  }
+  bool eight = ends.x > ends.y;
+  int A = bits(ends.x);
+  int B = bits(ends.y);
+  precise float part = float(B - A) * (eight ? seventh : fifth);
+  int step = int(part);
+  int some = ends.x > 0 || ends.y > 0 ? -1 : 0;
+  low = vec4(ends.x > 0 ? intBitsToFloat(A) : 0, ends.y > 0 ? intBitsToFloat(B) : 0,
+             intBitsToFloat((A + step) & some), intBitsToFloat((A + 2 * step) & some));
+  high = vec4(intBitsToFloat((A + 3 * step) & some), intBitsToFloat((A + 4 * step) & some),
+              eight ? intBitsToFloat(A + 5 * step) : 0, intBitsToFloat(eight ? A + 6 * step : bits(255)));
 }
+#else
+void palette(uint word, out vec4 low, out vec4 high) {
+  vec2 ends = vec2(word & 0xffu, (word >> 8) & 0xffu);
+  bool eight = ends.x > ends.y;
+  float slope = uintBitsToFloat(slope_bits);
+  precise float A = ends.x * slope;
+  precise float B = ends.y * slope;
+  precise float step = (B - A) * (eight ? seventh : fifth);
+  low = vec4(A, B, A + step, A + 2 * step);
+  high = vec4(A + 3 * step, A + 4 * step, eight ? A + 5 * step : 0, eight ? A + 6 * step : 255 * slope);
+}
+#endif
 
 vec4 chosen(vec4 four, bvec4 first_bit, bvec4 second_bit) {
   return mix(mix(four.xxxx, four.yyyy, first_bit), mix(four.zzzz, four.wwww, first_bit), second_bit);
