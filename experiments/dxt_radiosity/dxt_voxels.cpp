@@ -17,7 +17,7 @@ namespace {
 
 /// The scene's own light first, if it has any, then those drawn.
 Field own_and_drawn_lights(const PatchMesh& mesh, const DxtVoxelsOptions& options, Monitor& monitor) {
-  const Field drawn = draw_lights(mesh, options.lights, options.seed, monitor).emission;
+  Field drawn = draw_lights(mesh, options.lights, options.seed, monitor).emission;
   if (mesh.emission.isZero(0)) return drawn;
   Field lights(mesh.patch_count(), mesh.channels() + drawn.cols());
   lights << mesh.emission, drawn;
