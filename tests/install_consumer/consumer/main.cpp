@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <radiosity/experiments/comparison.hpp>
+#include <radiosity/render/write_solution.hpp>
 #include <radiosity/scene/built_in.hpp>
 #include <string>
 
@@ -66,6 +68,10 @@ void run(const std::string& json_file) {
   expect(mine.bytes < csr.bytes, "it takes less memory than csr");
   expect(mine.errors.radiosity_mean > 1e-4 && mine.errors.radiosity_mean < 0.5, "its error is seen");
   expect(csr.errors.radiosity_mean < 1e-5, "csr has none");
+
+  const std::string picture = json_file + ".png";  // by a module of the package, loaded now
+  fmt::print("{}\n", write_solution(picture, *mesh, mesh->emission, {.width = 40, .height = 40}, monitor));
+  expect(std::filesystem::file_size(picture) > 0, "a picture is written");
 }
 
 }  // namespace

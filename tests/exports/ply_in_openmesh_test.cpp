@@ -1,7 +1,7 @@
 // A mesh library that had no part in writing the PLY reads it (positions in single precision).
 #include "render/tone_mapping.hpp"
 #include "render/write_solution.hpp"
-#include "rooms.hpp"
+#include "tests/render/rooms.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
