@@ -5,12 +5,15 @@ target_compile_options(radiosity_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -Werror -fno-math-errno -ffp-contract=off)
 if(RADIOSITY_SANITIZE)
-  # Checks of every dereference cost half the compilation; a null pointer ends in a report of the address sanitizer anyway. Of
-  # tests only the calls into the libraries are of interest. GCC's flow analysis does not see through the instrumentation.
+  # Checks of every dereference cost half the compilation; a null pointer ends in a report of the address sanitizer anyway, and
+  # only the folders that cast pointers to numbers can misalign them. Of tests only the calls into the libraries are of
+  # interest. GCC's flow analysis does not see through the instrumentation.
   target_compile_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE} -fno-omit-frame-pointer
                          -fno-sanitize-recover=all -fno-sanitize=null,object-size,vptr -Wno-maybe-uninitialized
+                         $<$<NOT:$<BOOL:$<TARGET_PROPERTY:RADIOSITY_CASTS_POINTERS>>>:-fno-sanitize=alignment>
                          $<$<BOOL:$<TARGET_PROPERTY:RADIOSITY_IS_TEST>>:-fno-sanitize=undefined>)
-  target_link_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE})
+  # The sanitizer calls dlopen in the program's place: modules are found through RPATH, which counts for every caller.
+  target_link_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE} LINKER:--disable-new-dtags)
 endif()
 
 # radiosity_library(NAME PUBLIC targets... PRIVATE targets...)
@@ -21,6 +24,9 @@ function(radiosity_library name)
   add_library(${target} ${sources})
   add_library(radiosity::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  if(name MATCHES "^(foundation|kernels|compression|gpu)$")
+    set_target_properties(${target} PROPERTIES RADIOSITY_CASTS_POINTERS ON)
+  endif()
   if(CMAKE_BUILD_TYPE STREQUAL Release AND name MATCHES "^(scene|solvers|experiments)$")
     target_compile_options(${target} PRIVATE -O2)  # few loops of their own: -O3 costs a third of the compilation
   endif()
