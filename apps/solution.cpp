@@ -31,7 +31,7 @@ Solution solve_scene(const FormFactors& form_factors, const Field& emission, con
   SolverOptions options;
   options.tolerance = request.tolerance;
   const Stopwatch solving;
-  const std::unique_ptr<Solver> solver = program.solvers.make(
+  std::unique_ptr<Solver> solver = program.solvers.make(
       request.solver_spec,
       {*transport, form_factors.mesh->area.cwiseSqrt(), options,
        [&](const std::string& spec) { return program.operators.make(spec, form_factors); }});
@@ -46,6 +46,7 @@ Solution solve_scene(const FormFactors& form_factors, const Field& emission, con
   result.residual = solver->residual();
   result.device = transport->device_use();
   result.radiosity = solver->radiosity();
+  solver.reset();  // with fields of its own, each as long as the next
   result.irradiance = irradiance(form_factors, *transport, result.radiosity);
   return result;
 }

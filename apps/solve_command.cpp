@@ -60,9 +60,9 @@ void check_outputs(const SolveOptions& options) {
   require_writable(options.form_factors.save_file);
 }
 
-/// The scene's own emission, or that of the one light asked for.
-Field light_of(const SolveOptions& options, const PatchMesh& mesh, Monitor& monitor) {
-  if (options.lights.empty()) return mesh.emission;
+/// The emission of the one light asked for; nothing where the scene's own counts.
+std::optional<Field> drawn_light(const SolveOptions& options, const PatchMesh& mesh, Monitor& monitor) {
+  if (options.lights.empty()) return std::nullopt;
   const LightCounts counts = LightCounts::parse(options.lights);
   if (counts.total() != 1)
     fail<UsageError>("--lights {}: solve takes one light, as in area:1; compare takes many", options.lights);
@@ -112,7 +112,8 @@ void run_solve(SolveOptions options, const Program& cpu_program) {
 
   TerminalMonitor monitor(options.run.quiet);
   const auto original = open_mesh(options.scene);
-  const Field original_emission = light_of(options, *original, monitor);
+  const std::optional<Field> drawn = drawn_light(options, *original, monitor);
+  const Field& original_emission = drawn ? *drawn : original->emission;
   std::optional<Simplification> simplification;
   if (voxels) {
     monitor.checkpoint("simplification", 0);
@@ -136,8 +137,9 @@ void run_solve(SolveOptions options, const Program& cpu_program) {
   Field error_bounds;
   if (!options.error_bounds_file.empty())
     error_bounds = bound_patch_errors(form_factors, emission, report.solution.radiosity);
-  const Field radiosity =
-      simplification ? simplification->patches(report.solution.irradiance) : report.solution.radiosity;
+  const Field simplified_radiosity =
+      simplification ? simplification->patches(report.solution.irradiance) : Field();
+  const Field& radiosity = simplification ? simplified_radiosity : report.solution.radiosity;
   if (simplification) {
     report.simplification = simplification->summary();
     notes.push_back(simplification->note());

@@ -68,6 +68,11 @@ void multiply(const TallMatrix<double>& M, const ConstFieldRef& C, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
 void multiply(const TallMatrix<float>& M, const ConstFieldRef& C, FieldRef Y,
               InstructionSet instructions = best_instruction_set());
+/// Rows 64 first_panel ... of M C, as many as Y has: a multiple of 64, or all that are left.
+void multiply_panels(const TallMatrix<double>& M, Index first_panel, const ConstFieldRef& C, FieldRef Y,
+                     InstructionSet instructions = best_instruction_set());
+void multiply_panels(const TallMatrix<float>& M, Index first_panel, const ConstFieldRef& C, FieldRef Y,
+                     InstructionSet instructions = best_instruction_set());
 void multiply_transposed(const TallMatrix<double>& M, const ConstFieldRef& X, FieldRef C,
                          InstructionSet instructions = best_instruction_set());
 void multiply_transposed(const TallMatrix<float>& M, const ConstFieldRef& X, FieldRef C,

@@ -40,10 +40,10 @@ TileTask<Scalar> tall_task(const TallMatrix<Scalar>& M, Index panel, Index first
   return task;
 }
 
-/// Y(64 panel ..., first_column ...) = the panel times C.
+/// Y(row ..., first_column ...) = the panel times C.
 template <typename Scalar>
 void multiply_tall_panel(const TallMatrix<Scalar>& M, Index panel, const TallField<Scalar>& C,
-                         const TileProducts<Scalar>& products, Index first_column, FieldRef Y) {
+                         const TileProducts<Scalar>& products, Index first_column, Index row, FieldRef Y) {
   const Index rows = std::min<Index>(64, M.rows() - 64 * panel);
   for (Index c = 0; c < C.columns(); c += products.most_columns) {
     const Index columns = std::min<Index>(products.most_columns, C.columns() - c);
@@ -57,24 +57,25 @@ void multiply_tall_panel(const TallMatrix<Scalar>& M, Index panel, const TallFie
       products.to_columns[static_cast<std::size_t>(columns - 1)](task);
     }
     for (Index j = 0; j < columns; ++j) {
-      double* y = Y.col(first_column + c + j).data() + 64 * panel;
+      double* y = Y.col(first_column + c + j).data() + row;
       for (Index i = 0; i < rows; ++i) y[i] = M.scale() * sums[static_cast<std::size_t>(64 * j + i)];
     }
   }
 }
 
 template <typename Scalar>
-void multiply_tall(const TallMatrix<Scalar>& M, const ConstFieldRef& C, FieldRef Y,
-                   InstructionSet instructions) {
-  check_product_shapes(M.rows(), M.columns(), C, Y);
+void multiply_tall(const TallMatrix<Scalar>& M, Index first_panel, Index rows, const ConstFieldRef& C,
+                   FieldRef Y, InstructionSet instructions) {
+  check_product_shapes(rows, M.columns(), C, Y);
   const TileProducts<Scalar> products = tile_products<Scalar>(instructions);
   const Index grain = std::max<Index>(entries_of_a_task / (64 * std::max<Index>(M.columns(), 16)), 1);
   for (Index first = 0; first < C.cols(); first += columns_at_once) {
     const TallField<Scalar> blocked(C, first, std::min(columns_at_once, C.cols() - first));
     parallel_for(
-        static_cast<std::size_t>(M.panels()),
-        [&](std::size_t panel) {
-          multiply_tall_panel(M, static_cast<Index>(panel), blocked, products, first, Y);
+        static_cast<std::size_t>((rows + 63) / 64),
+        [&](std::size_t index) {
+          const auto panel = static_cast<Index>(index);
+          multiply_tall_panel(M, first_panel + panel, blocked, products, first, 64 * panel, Y);
         },
         static_cast<std::size_t>(grain));
   }
@@ -147,10 +148,20 @@ void multiply_tall_transposed(const TallMatrix<Scalar>& M, const ConstFieldRef& 
 }  // namespace
 
 void multiply(const TallMatrix<double>& M, const ConstFieldRef& C, FieldRef Y, InstructionSet instructions) {
-  multiply_tall(M, C, Y, instructions);
+  multiply_tall(M, 0, M.rows(), C, Y, instructions);
+}
+
+void multiply_panels(const TallMatrix<double>& M, Index first_panel, const ConstFieldRef& C, FieldRef Y,
+                     InstructionSet instructions) {
+  multiply_tall(M, first_panel, std::min(Y.rows(), M.rows() - 64 * first_panel), C, Y, instructions);
 }
 void multiply(const TallMatrix<float>& M, const ConstFieldRef& C, FieldRef Y, InstructionSet instructions) {
-  multiply_tall(M, C, Y, instructions);
+  multiply_tall(M, 0, M.rows(), C, Y, instructions);
+}
+
+void multiply_panels(const TallMatrix<float>& M, Index first_panel, const ConstFieldRef& C, FieldRef Y,
+                     InstructionSet instructions) {
+  multiply_tall(M, first_panel, std::min(Y.rows(), M.rows() - 64 * first_panel), C, Y, instructions);
 }
 void multiply_transposed(const TallMatrix<double>& M, const ConstFieldRef& X, FieldRef C,
                          InstructionSet instructions) {

@@ -10,6 +10,11 @@ MatrixOperator::MatrixOperator(const FormFactors& form_factors)
 }
 
 void MatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
+  if (beta == 0) {  // in place: n may be so large that another field matters
+    multiply_matrix(X, Y);
+    for (Index j = 0; j < Y.cols(); ++j) Y.col(j).array() *= alpha * reflectance_.col(j % channels()).array();
+    return;
+  }
   Field product(X.rows(), X.cols());
   multiply_matrix(X, product);
   add_product(alpha * reflectance_.array(), product, beta, Y);

@@ -1,9 +1,11 @@
 #include "operators/sparse_v_operator.hpp"
 
+#include "kernels/products.hpp"
 #include "kernels/segment_products.hpp"
 #include "kernels/segment_sums.hpp"
 #include "operators/storage_choice.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace radiosity {
@@ -30,9 +32,16 @@ void SparseVOperator<Scalar>::multiply_right_transposed_sorted(const ConstFieldR
 template <typename Scalar>
 void SparseVOperator<Scalar>::multiply_left(const ConstFieldRef& C, FieldRef Y) const {
   if (V_.order().empty()) return multiply_left_sorted(C, Y);
-  Field sorted(size(), C.cols());
-  multiply_left_sorted(C, sorted);
-  Y(V_.order(), Eigen::all) = sorted;
+  // Some rows at a time: they go where they belong while they are in the cache, and take no second field.
+  constexpr Index panels_at_once = 512;
+  constexpr Index rows_at_once = panels_at_once * FactorMatrix<Scalar>::panel_rows;
+  Field sorted(std::min(rows_at_once, size()), C.cols());
+  for (Index first = 0; first < size(); first += rows_at_once) {
+    const Index rows = std::min(rows_at_once, size() - first);
+    multiply_panels(U_, first / FactorMatrix<Scalar>::panel_rows, C, sorted.topRows(rows), instructions_);
+    for (Index j = 0; j < C.cols(); ++j)
+      for (Index i = 0; i < rows; ++i) Y(V_.order()[static_cast<std::size_t>(first + i)], j) = sorted(i, j);
+  }
 }
 
 template <typename Scalar>

@@ -66,6 +66,8 @@ void add_patches(PatchMesh& mesh, const Scene& scene, const Division& division) 
       int& vertex = patch.corners[static_cast<std::size_t>(k)];
       vertex = number[static_cast<std::size_t>(welded[static_cast<std::size_t>(vertex)])];
     }
+  mesh.patches.shrink_to_fit();  // they stay, often by the million
+  mesh.vertices.shrink_to_fit();
 }
 
 /// Area, normal and centroid, from the fan of triangles around the first corner.

@@ -1,6 +1,7 @@
 #include "solvers/stepped_solver.hpp"
 
 #include "foundation/error.hpp"
+#include "operators/low_rank_operator.hpp"
 #include "solvers/spectral_radius.hpp"
 
 #include <algorithm>
@@ -26,7 +27,6 @@ SteppedSolver::SteppedSolver(std::string name, const SolverProblem& problem)
 void SteppedSolver::start(const Field& emission) {
   check_emission(name_, transport(), emission);
   emission_ = emission;
-  radiosity_ = Field::Zero(emission.rows(), emission.cols());
   emission_norms_ = area_norms(root_area(), emission_);
   relative_residuals_ = Eigen::RowVectorXd::Zero(emission.cols());
   products_ = 0;
@@ -36,10 +36,12 @@ void SteppedSolver::start(const Field& emission) {
     relative_residuals_[j] = 1;
     open_.push_back(j);
   }
-  if (open_.empty()) return;
-  refuse_room_without_absorption();
-  refuse_growing_light();
-  begin();
+  if (!open_.empty()) {
+    refuse_room_without_absorption();
+    refuse_growing_light();
+  }
+  radiosity_ = Field::Zero(emission.rows(), emission.cols());
+  if (!open_.empty()) begin();
 }
 
 /// Where nothing absorbs and rows sum to 1 but for the error of F, the answer would be that error's alone.
@@ -58,10 +60,12 @@ void SteppedSolver::refuse_room_without_absorption() const {
 }
 
 /// Where the spectral radius is known to be above 1, light grows without end and B = E + T B has no physical
-/// answer, however well its equations can be solved. One product tells as a rule; examined once a solver.
+/// answer, however well its equations can be solved. One product tells as a rule; examined once a solver, and
+/// not for factors of low rank, whose signs leave no bound.
 void SteppedSolver::refuse_growing_light() {
   if (growth_examined_) return;
   growth_examined_ = true;
+  if (dynamic_cast<const LowRankFactors*>(&transport()) != nullptr) return;
   constexpr int few_products = 3;
   const double least = collatz_wielandt_bounds(transport(), few_products).lower;
   if (least <= 1 + singularity_threshold()) return;
@@ -90,11 +94,12 @@ Field SteppedSolver::multiply_open(const Field& X) const {
     for (Index channel = 0; channel < channels(); ++channel) columns.push_back(light * channels() + channel);
     last_light = light;
   }
-  Field images = Field::Zero(X.rows(), X.cols());
+  Field images(X.rows(), X.cols());
   if (static_cast<Index>(columns.size()) == X.cols()) {
     transport().apply(X, images);
     return images;
   }
+  images.setZero();
   const Field fields = X(Eigen::all, columns);
   Field open_images(fields.rows(), fields.cols());
   transport().apply(fields, open_images);

@@ -3,8 +3,10 @@
 #include "operators/capacitance.hpp"
 #include "solvers/stepped_solver.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace radiosity {
 
@@ -28,11 +30,13 @@ class Woodbury final : public SteppedSolver {
  private:
   void begin() override;
   void advance() override;
+  /// B += (I - T)^-1 times the residual, for the columns.
+  void correct(const std::vector<Index>& columns);
 
   const LowRankFactors& factors_;
   std::optional<CapacitanceMatrices> capacitances_;
-  Eigen::MatrixXd reflectance_;  ///< what they were made for
-  Field residuals_;              ///< E - (I - T) B
+  std::uint64_t reflectance_ = 0;  ///< fingerprint of those that they were made for
+  Field residuals_;                ///< E - (I - T) B; empty before the first step, where it is E
   int steps_ = 0;
 };
 
