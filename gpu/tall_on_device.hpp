@@ -1,11 +1,11 @@
 #pragma once
 
 #include "gpu/shader_family.hpp"
+#include "gpu/stored_rows.hpp"
 #include "kernels/tall_matrix.hpp"
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace radiosity {
 
@@ -24,7 +24,7 @@ class TallOnDevice {
   Index rows() const { return rows_; }
   Index columns() const { return columns_; }
   double scale() const { return scale_; }
-  std::size_t bytes() const;
+  std::size_t bytes() const { return panels_.bytes(); }
 
   /// Y = M C: coefficients are bound as X, the field as Y, both for FieldBuffers' bindings. Without scale().
   void multiply(Index columns) const;
@@ -35,17 +35,11 @@ class TallOnDevice {
   Index chunks() const;
 
  private:
-  struct Block {
-    Index first_panel;
-    Index panels;
-    GlBuffer entries;
-  };
-
   std::shared_ptr<GlDevice> device_;
   Index rows_;
   Index columns_;
   double scale_;
-  std::vector<Block> blocks_;
+  StoredRows panels_;
   ShaderFamily product_;
   ShaderFamily transposed_;
 };
