@@ -25,10 +25,10 @@ class Bc4OnDevice final : public DeviceMatrix {
               RowStrategy strategy);
 
   ByteCount bytes() const override;
+  double scale() const override { return scale_; }
 
  protected:
   void dispatch(Index columns) const override;
-  double scale() const override { return scale_; }
 
  private:
   struct Channel {

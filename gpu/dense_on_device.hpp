@@ -22,12 +22,12 @@ class DenseOnDevice final : public DeviceMatrix {
   DenseOnDevice(std::shared_ptr<GlDevice> device, const RowMajorMatrix<Scalar>& matrix, RowStrategy strategy);
 
   ByteCount bytes() const override;
+  double scale() const override { return scale_; }
   /// Over how many storage blocks it is split.
   std::size_t blocks() const { return strips_.parts().size(); }
 
  protected:
   void dispatch(Index columns) const override;
-  double scale() const override { return scale_; }
 
  private:
   template <typename ReadStrip>

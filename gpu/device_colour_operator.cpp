@@ -40,6 +40,11 @@ DeviceTextureOperator::DeviceTextureOperator(const ColourOperator& original,
                                              DeviceOrigin origin)
     : DeviceColourOperator(original, only(std::move(texture)), std::move(origin)), order_(std::move(order)) {}
 
+std::optional<DeviceTransport> DeviceTextureOperator::transport_on_device() const {
+  if (global()) return std::nullopt;
+  return DeviceTransport{&matrix(), reflectance().array(), inverse_colours(), order_};
+}
+
 void DeviceTextureOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y) const {
   const Field sorted = X(order_, Eigen::all);
   Field product(X.rows(), X.cols());

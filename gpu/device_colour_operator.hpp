@@ -25,6 +25,9 @@ class DeviceColourOperator : public DeviceOperator<LinearOperator> {
 
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
 
+  const Eigen::MatrixXd& reflectance() const { return reflectance_; }
+  const Eigen::ArrayXXd& inverse_colours() const { return inverse_colours_; }
+
  private:
   Eigen::MatrixXd reflectance_;
   Eigen::ArrayXXd inverse_colours_;  ///< 1 / c, n x channels
@@ -49,6 +52,8 @@ class DeviceTextureOperator final : public DeviceColourOperator {
   /// order[p]: the patch at place p.
   DeviceTextureOperator(const ColourOperator& original, std::unique_ptr<DeviceMatrix> texture,
                         std::vector<Index> order, DeviceOrigin origin);
+
+  std::optional<DeviceTransport> transport_on_device() const override;
 
  protected:
   void multiply_colours(const ConstFieldRef& X, FieldRef Y) const override;

@@ -35,9 +35,18 @@ DeviceKernelOperator::DeviceKernelOperator(const KernelOperator& original,
     : DeviceOperator(only(std::move(matrix)), std::move(origin), original.root_area(),
                      original.reflectance()) {}
 
+std::optional<DeviceTransport> DeviceKernelOperator::transport_on_device() const {
+  return DeviceTransport{&matrix(), reflectance().array().colwise() / root_area().array(),
+                         root_area().array().replicate(1, channels())};
+}
+
 DeviceMatrixOperator::DeviceMatrixOperator(const MatrixOperator& original,
                                            std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
     : DeviceOperator(only(std::move(matrix)), std::move(origin)), reflectance_(original.reflectance()) {}
+
+std::optional<DeviceTransport> DeviceMatrixOperator::transport_on_device() const {
+  return DeviceTransport{&matrix(), reflectance_.array(), Eigen::ArrayXXd::Ones(size(), channels())};
+}
 
 void DeviceMatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
   Field product(X.rows(), X.cols());

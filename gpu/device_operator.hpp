@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gpu/device_matrix.hpp"
+#include "gpu/device_transport.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -26,6 +26,10 @@ class OnDevice {
   virtual ~OnDevice() = default;
   /// Found when it is compared with the CPU's (DeviceUse::difference_max).
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
+
+  /// What solvers that stay on the device multiply with, with the reflectances of now; empty for operators
+  /// that are not T or take more than one matrix.
+  virtual std::optional<DeviceTransport> transport_on_device() const { return std::nullopt; }
 
  protected:
   using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
@@ -71,6 +75,8 @@ class DeviceKernelOperator : public DeviceOperator<KernelOperator> {
   DeviceKernelOperator(const KernelOperator& original, std::unique_ptr<DeviceMatrix> matrix,
                        DeviceOrigin origin);
 
+  std::optional<DeviceTransport> transport_on_device() const override;
+
  protected:
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { matrix().multiply(X, Y); }
 };
@@ -85,6 +91,7 @@ class DeviceMatrixOperator : public DeviceOperator<LinearOperator> {
   const Eigen::MatrixXd& reflectance() const { return reflectance_; }
   Index size() const override { return reflectance_.rows(); }
   Index channels() const override { return reflectance_.cols(); }
+  std::optional<DeviceTransport> transport_on_device() const override;
 
  protected:
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;

@@ -11,6 +11,7 @@ namespace radiosity {
 class FactorsOnDevice : public DeviceMatrix {
  public:
   Index rank() const { return rank_; }
+  double scale() const final { return left_scale() * right_scale(); }
 
   /// Y = U C, n x c from k x c, and C = V' X, k x c from n x c, for c > 0 columns.
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const;
@@ -34,7 +35,6 @@ class FactorsOnDevice : public DeviceMatrix {
   virtual double right_scale() const = 0;
 
   void dispatch(Index columns) const final;
-  double scale() const final { return left_scale() * right_scale(); }
 
  private:
   Index rank_;

@@ -23,10 +23,10 @@ class TextureOnDevice final : public DeviceMatrix {
                   const std::vector<ExactRows>& exact, RowStrategy strategy);
 
   ByteCount bytes() const override;
+  double scale() const override { return scale_; }
 
  protected:
   void dispatch(Index columns) const override;
-  double scale() const override { return scale_; }
 
  private:
   void upload_tables(const ColourTexture& texture);
