@@ -17,12 +17,12 @@ class SparseVOnDevice final : public FactorsOnDevice {
 
   ByteCount bytes() const override;
   std::size_t right_bytes() const override;
+  double left_scale() const override { return left_.scale(); }
+  double right_scale() const override { return weight_scale_; }
 
  protected:
   void dispatch_left(Index columns) const override;
   void dispatch_right(Index columns) const override;
-  double left_scale() const override { return left_.scale(); }
-  double right_scale() const override { return weight_scale_; }
 
  private:
   TallOnDevice left_;

@@ -31,6 +31,7 @@ inline std::vector<ShaderVariant> shader_variants() {
     variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
     variants.push_back({"segment_sums.comp", {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}}});
   }
+  variants.push_back({"frame_sum.comp", {}});
   variants.push_back({"neumann_step.comp", {{"SUMS", 1}}});
   variants.push_back({"cg_image.comp", {{"SUMS", 1}}});
   variants.push_back({"cg_update.comp", {{"SUMS", 2}}});
