@@ -12,6 +12,7 @@ constexpr Index strip_rows = 64;
 constexpr unsigned entries_binding = 0;
 constexpr int rows_of_group = 4;
 constexpr int invocations_of_group = 128;
+constexpr int rows_of_invocation = 4;
 
 template <typename Scalar>
 ShaderFamily shaders_for(RowStrategy strategy) {
@@ -19,7 +20,10 @@ ShaderFamily shaders_for(RowStrategy strategy) {
   if (strategy == RowStrategy::group)
     return {"dense_group.comp",
             {{"HALF", half}, {"ROWS", rows_of_group}, {"INVOCATIONS", invocations_of_group}}};
-  return {"dense_invocation.comp", {{"HALF", half}, {"ROWS", static_cast<int>(strip_rows)}}};
+  return {"dense_invocation.comp",
+          {{"HALF", half},
+           {"INVOCATIONS", static_cast<int>(strip_rows) / rows_of_invocation},
+           {"SHARE", rows_of_invocation}}};
 }
 
 /// The rows 64 I ... of a symmetric matrix: its tiles (I, J) for J >= I, and (J, I) transposed.

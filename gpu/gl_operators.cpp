@@ -2,19 +2,13 @@
 
 #include "gpu/upload.hpp"
 
-#include <algorithm>
-#include <array>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace radiosity {
 namespace {
 
-/// Of those that have rows to share out.
 std::optional<RowStrategy> take_strategy(Spec& spec) {
-  constexpr std::array<std::string_view, 4> names = {"dense", "csr", "bounces", "dxt"};
-  if (std::find(names.begin(), names.end(), spec.name()) == names.end()) return std::nullopt;
   const std::string strategy = spec.choice("strategy", "auto", {"auto", "group", "invocation"});
   if (strategy == "group") return RowStrategy::group;
   if (strategy == "invocation") return RowStrategy::invocation;

@@ -12,10 +12,11 @@ namespace radiosity {
 class LowRankOnDevice final : public FactorsOnDevice {
  public:
   /// F = U V'.
-  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const TallMatrix<float>& V);
+  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const TallMatrix<float>& V,
+                  RowStrategy strategy);
   /// K = Q diag(values) Q', as U = Q and V = Q diag(values).
-  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& Q,
-                  const Eigen::VectorXd& values);
+  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& Q, const Eigen::VectorXd& values,
+                  RowStrategy strategy);
 
   ByteCount bytes() const override;
   std::size_t right_bytes() const override { return right().bytes(); }

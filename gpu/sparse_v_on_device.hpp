@@ -13,7 +13,8 @@ namespace radiosity {
 class SparseVOnDevice final : public FactorsOnDevice {
  public:
   /// U: n x k, its rows in the sorted order of V.
-  SparseVOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const Segments& V);
+  SparseVOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const Segments& V,
+                  RowStrategy strategy);
 
   ByteCount bytes() const override;
   std::size_t right_bytes() const override;

@@ -7,6 +7,9 @@ constexpr unsigned panels_binding = 0;
 constexpr Index panel_rows = TallMatrix<float>::panel_rows;
 /// Panels whose sums are put together by one work group: 2048 rows keep the sums of chunks few.
 constexpr Index panels_of_chunk = 32;
+/// Where each invocation has columns of its own.
+constexpr int columns_of_invocation = 2;
+constexpr Index columns_of_wide_group = Index{8} * columns_of_invocation;
 
 Index chunks_of(Index panels) {
   return (panels + panels_of_chunk - 1) / panels_of_chunk;
@@ -25,14 +28,19 @@ StoredRows panels_of(const GlDevice& device, const TallMatrix<float>& matrix) {
 
 }  // namespace
 
-TallOnDevice::TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, bool ordered)
+TallOnDevice::TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix,
+                           RowStrategy strategy, bool ordered)
     : device_(std::move(device)),
       rows_(matrix.rows()),
       columns_(matrix.columns()),
       scale_(matrix.scale()),
       panels_(panels_of(*device_, matrix)),
-      product_("tall_product.comp", {{"ORDERED", ordered ? 1 : 0}}),
-      transposed_("tall_transposed.comp", {}) {}
+      columns_of_group_(strategy == RowStrategy::group ? 1 : columns_of_wide_group),
+      product_(strategy == RowStrategy::group ? "tall_product.comp" : "tall_product_wide.comp",
+               {{"ORDERED", ordered ? 1 : 0}}),
+      transposed_(strategy == RowStrategy::group
+                      ? ShaderFamily("tall_transposed.comp", {})
+                      : ShaderFamily("tall_transposed_wide.comp", {{"SHARE", columns_of_invocation}})) {}
 
 Index TallOnDevice::chunks() const {
   Index chunks = 0;
@@ -71,7 +79,7 @@ void TallOnDevice::multiply_transposed(Index columns) const {
       program.set("x_stride", FieldBuffers::padded(rows_));
       program.set("sum_stride", FieldBuffers::padded(columns_));
       program.set("first_column", first_column);
-      program.dispatch(chunks_of(part.rows) * columns_);
+      program.dispatch(chunks_of(part.rows) * ((columns_ + columns_of_group_ - 1) / columns_of_group_));
     });
     first_chunk += chunks_of(part.rows);
   }

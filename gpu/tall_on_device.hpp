@@ -17,9 +17,11 @@ class TallOnDevice {
   static constexpr unsigned partial_binding = 3;
   static constexpr unsigned order_binding = 5;
 
+  /// `strategy`: group for a work group a panel or a column of it, invocation for some rows or columns each.
   /// `ordered`: row e of products goes to row order[e] of Y, with that list bound to order_binding. Throws
   /// Error where a panel does not fit into a storage block, or the factor not into the device.
-  TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, bool ordered = false);
+  TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, RowStrategy strategy,
+               bool ordered = false);
 
   Index rows() const { return rows_; }
   Index columns() const { return columns_; }
@@ -40,6 +42,7 @@ class TallOnDevice {
   Index columns_;
   double scale_;
   StoredRows panels_;
+  Index columns_of_group_;  ///< of M' X
   ShaderFamily product_;
   ShaderFamily transposed_;
 };

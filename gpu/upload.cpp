@@ -78,7 +78,7 @@ class Uploader {
   template <typename Operator, typename Factors, typename Original, typename Left, typename Right>
   std::unique_ptr<LinearOperator> with_factors(const Original& original, const Left& left,
                                                const Right& right) const {
-    auto factors = std::make_unique<Factors>(device_, left, right);
+    auto factors = std::make_unique<Factors>(device_, left, right, strategy_);
     return std::make_unique<Operator>(original, std::move(factors), origin());
   }
 

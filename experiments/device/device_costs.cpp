@@ -42,7 +42,7 @@ ProductCost cost_of_factors(const std::shared_ptr<GlDevice>& device, const Produ
                             Index columns) {
   const SolvedFactors factors = random_factors(options.factors, options.seed);
   const TallMatrix<float> V = full_matrix(factors.V);
-  const LowRankOnDevice copy(device, factors.Y, V);
+  const LowRankOnDevice copy(device, factors.Y, V, device->preferred_strategy());
   const Field E = Field::Ones(options.factors.rows, columns);
   Field X(options.factors.rank, columns);
   Field Y(options.factors.rows, columns);

@@ -11,8 +11,8 @@
 namespace radiosity {
 
 struct ProductCostOptions {
-  Index patches = 2048;             ///< of dense and compressed products
-  LowRankSize factors{13824, 216};  ///< of products with factors
+  Index patches = 4096;             ///< of dense and compressed products
+  LowRankSize factors{55296, 216};  ///< of products with factors
   double seconds = 0.2;             ///< for each product on each side
   std::uint64_t seed = 1;
 };

@@ -100,7 +100,7 @@ std::vector<DeviceFrames> time_device_frames(const std::shared_ptr<GlDevice>& de
   for (const Index columns : {1, 3}) results.push_back({.size = size, .columns = columns});
   {
     const Stopwatch upload;
-    const SparseVOnDevice sparse(device, factors.Y, factors.V);
+    const SparseVOnDevice sparse(device, factors.Y, factors.V, device->preferred_strategy());
     const double upload_seconds = upload.seconds();
     for (DeviceFrames& result : results) {
       const Field E = random_light(size.rows, result.columns, seed);
@@ -116,7 +116,7 @@ std::vector<DeviceFrames> time_device_frames(const std::shared_ptr<GlDevice>& de
   }
   if (!with_full) return results;
   const TallMatrix<float> V = full_matrix(factors.V);
-  const LowRankOnDevice full(device, factors.Y, V);
+  const LowRankOnDevice full(device, factors.Y, V, device->preferred_strategy());
   for (DeviceFrames& result : results) {
     const Field E = random_light(size.rows, result.columns, seed);
     FrameTimer timer(

@@ -219,8 +219,9 @@ INSTANTIATE_TEST_SUITE_P(Stored, DeviceOperators,
                          spec_name);
 
 INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
-                         testing::Values("svd:k=8", "svd:k=8,norm=area,method=lanczos", "2msc:k=8",
-                                         "sparse-v:k=8"),
+                         testing::Values("svd:k=8,strategy=group", "svd:k=9,strategy=invocation",
+                                         "svd:k=19,norm=area,method=lanczos,strategy=invocation", "2msc:k=8",
+                                         "sparse-v:k=8,strategy=group", "sparse-v:k=7,strategy=invocation"),
                          spec_name);
 INSTANTIATE_TEST_SUITE_P(Bounces, DeviceCopies,
                          testing::Values("bounces:k=3,storage=f32", "bounces:k=2,storage=f16"), spec_name);

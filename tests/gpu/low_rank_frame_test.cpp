@@ -34,8 +34,8 @@ TEST_F(Frames, GiveThePlainAlgorithmsRadiosity) {
   const Eigen::MatrixXd V = plain_v();
   const Eigen::MatrixXd E = 1e4 * random_matrix(200, 3, 2);
   const Eigen::MatrixXd expected = E - Y * (V.transpose() * E);
-  const LowRankOnDevice full(device(), TallMatrix<float>(Y), TallMatrix<float>(V));
-  const SparseVOnDevice sparse(device(), TallMatrix<float>(Y), Segments(offsets));
+  const LowRankOnDevice full(device(), TallMatrix<float>(Y), TallMatrix<float>(V), RowStrategy::group);
+  const SparseVOnDevice sparse(device(), TallMatrix<float>(Y), Segments(offsets), RowStrategy::invocation);
   for (const FactorsOnDevice* factors :
        {static_cast<const FactorsOnDevice*>(&full), static_cast<const FactorsOnDevice*>(&sparse)}) {
     const CurrentContext current(*device()->context());
@@ -57,7 +57,7 @@ TEST_F(Frames, GiveThePlainAlgorithmsRadiosity) {
 TEST_F(Frames, StayAsExactWhileALightMovesThroughAHundred) {
   const Eigen::MatrixXd Y = -1e-3 * random_matrix(200, 4, 1);
   const Eigen::MatrixXd V = plain_v();
-  const SparseVOnDevice sparse(device(), TallMatrix<float>(Y), Segments(offsets));
+  const SparseVOnDevice sparse(device(), TallMatrix<float>(Y), Segments(offsets), RowStrategy::invocation);
   const CurrentContext current(*device()->context());
   LowRankFrame frame(sparse, 1);
   Eigen::MatrixXd B(200, 1);

@@ -12,7 +12,8 @@ inline std::vector<ShaderVariant> shader_variants() {
   for (const int half : {0, 1}) {
     variants.push_back(
         {"dense_group.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 4}, {"INVOCATIONS", 128}}});
-    variants.push_back({"dense_invocation.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 64}}});
+    variants.push_back(
+        {"dense_invocation.comp", {{"COLUMNS", 4}, {"HALF", half}, {"INVOCATIONS", 16}, {"SHARE", 4}}});
   }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
@@ -26,6 +27,8 @@ inline std::vector<ShaderVariant> shader_variants() {
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
+  variants.push_back({"tall_transposed_wide.comp", {{"COLUMNS", 4}, {"SHARE", 2}}});
+  variants.push_back({"tall_product_wide.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
   for (const int present : {0, 1}) {
     variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
     variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
