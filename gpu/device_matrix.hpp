@@ -20,7 +20,7 @@ class DeviceMatrix {
 
   /// Y = M X for c > 0 columns, as products of SymmetricTiles<float> have it (kernels/products.hpp) but for
   /// the order of sums and the scaling of X, which is one a column. Y is written, never read.
-  void multiply(const ConstFieldRef& X, FieldRef Y) const;
+  virtual void multiply(const ConstFieldRef& X, FieldRef Y) const;
 
   /// What it takes of the device's memory, by part.
   virtual ByteCount bytes() const = 0;

@@ -2,7 +2,10 @@
 
 #include "gpu/upload.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace radiosity {
@@ -15,6 +18,15 @@ std::optional<RowStrategy> take_strategy(Spec& spec) {
   return std::nullopt;
 }
 
+/// Of those that have factors.
+Placement take_placement(Spec& spec) {
+  constexpr std::array<std::string_view, 8> names = {"svd",      "rsvd", "qr",      "2msc",
+                                                     "sparse-v", "cur",  "wavelet", "dct"};
+  if (std::find(names.begin(), names.end(), spec.name()) == names.end()) return Placement::device;
+  return spec.choice("placement", "device", {"device", "hybrid"}) == "hybrid" ? Placement::hybrid
+                                                                              : Placement::device;
+}
+
 }  // namespace
 
 OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const OperatorRegistry& cpu) {
@@ -23,7 +35,8 @@ OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const Ope
     entry.make = [make = entry.make, device](Spec& spec, const FormFactors& form_factors) {
       require_uploadable(spec.name());
       const std::optional<RowStrategy> strategy = take_strategy(spec);
-      return upload(device, *make(spec, form_factors), strategy);
+      const Placement placement = take_placement(spec);
+      return upload(device, *make(spec, form_factors), strategy, placement);
     };
     registry.add(std::move(entry));
   }
