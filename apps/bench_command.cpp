@@ -1,10 +1,12 @@
 #include "apps/device_choice.hpp"
 #include "apps/number_ranges.hpp"
+#include "apps/output_check.hpp"
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/scene_options.hpp"
 #include "apps/terminal_monitor.hpp"
 #include "experiments/apply_benchmark.hpp"
+#include "experiments/device/device_benchmark.hpp"
 #include "experiments/form_factor_benchmark.hpp"
 #include "experiments/low_rank_benchmark.hpp"
 #include "foundation/error.hpp"
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -31,6 +34,8 @@ struct BenchOptions {
   std::optional<Index> patches;
   std::vector<std::string> operators;
   std::vector<std::string> sizes;
+  bool full = false;
+  std::filesystem::path json_file;
   RunOptions run;
 };
 
@@ -85,20 +90,53 @@ void bench_low_rank(const BenchOptions& options, const Program&) {
   print_low_rank_benchmark(benchmark_low_rank(sizes), std::cout);
 }
 
-constexpr std::array<Benchmark, 3> benchmarks = {
-    {{"apply", bench_apply}, {"form-factors", bench_form_factors}, {"low-rank", bench_low_rank}}};
+/// All that is wanted of a device, for `radiosity reproduce --device-results`.
+void bench_device(const BenchOptions& options, const Program& cpu_program) {
+  if (options.run.device != "gl")
+    fail<UsageError>("bench device measures a graphics device: say --device gl");
+  require_writable(options.json_file);
+  DeviceBenchmarkOptions sizes =
+      options.full ? DeviceBenchmarkOptions::full_sizes() : DeviceBenchmarkOptions();
+  if (!options.sizes.empty()) {
+    sizes.sizes.clear();
+    sizes.large_sizes.clear();
+  }
+  for (const std::string& size : options.sizes) sizes.sizes.push_back(LowRankSize::parse(size));
+  if (options.patches) {
+    sizes.patches = {*options.patches};
+    sizes.patches_over_bounces = sizes.costs.patches = *options.patches;
+  }
+  sizes.seed = sizes.costs.seed = options.run.seed;
+  TerminalMonitor monitor(options.run.quiet);
+  const DeviceResults results =
+      benchmark_device(open_device(options.run), sizes, cpu_program.operators, monitor);
+  if (!options.json_file.empty()) write_device_results(options.json_file, results);
+  monitor.clear();
+  std::cout << to_text(device_section(results, "radiosity bench device --device gl")) << std::flush;
+}
+
+constexpr std::array<Benchmark, 4> benchmarks = {{{"apply", bench_apply},
+                                                  {"form-factors", bench_form_factors},
+                                                  {"low-rank", bench_low_rank},
+                                                  {"device", bench_device}}};
+
+/// Without names: all, or what a device is measured by.
+bool bench_wanted(const BenchOptions& options, const std::string& name) {
+  if (options.names.empty()) return (name == "device") == (options.run.device == "gl");
+  return std::find(options.names.begin(), options.names.end(), name) != options.names.end();
+}
 
 void run_bench(const BenchOptions& options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
   for (const std::string& name : options.names)
     if (std::none_of(benchmarks.begin(), benchmarks.end(),
                      [&](const Benchmark& known) { return name == known.name; }))
-      fail<UsageError>("there is no benchmark '{}'; the known ones are apply, form-factors and low-rank",
-                       name);
+      fail<UsageError>(
+          "there is no benchmark '{}'; the known ones are apply, form-factors, low-rank and "
+          "device",
+          name);
   for (const Benchmark& benchmark : benchmarks)
-    if (options.names.empty() ||
-        std::find(options.names.begin(), options.names.end(), benchmark.name) != options.names.end())
-      benchmark.run(options, program);
+    if (bench_wanted(options, benchmark.name)) benchmark.run(options, program);
 }
 
 }  // namespace
@@ -107,21 +145,31 @@ void add_bench_command(CLI::App& app, const Program& program) {
   CLI::App* command =
       app.add_subcommand("bench", "speed of products and of form factors, against the machine's limits");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("NAME", options->names, "apply, form-factors or low-rank; default: all")
+  command
+      ->add_option(
+          "NAME", options->names,
+          "apply, form-factors, low-rank or device; default: device with --device gl, else the others")
       ->option_text(" ");
   command->add_option("--scene", options->scene, "for form-factors; default cornell-box-closed")
       ->option_text("SCENE");
   command
-      ->add_option("--patches", options->patches,
-                   "size of the matrix; default 16384 for apply, 13000 for form-factors")
+      ->add_option(
+          "--patches", options->patches,
+          "size of the matrix; default 16384 for apply, 13000 for form-factors, 400 to 2048 for device")
       ->check(integer_between(1, 10'000'000))
       ->option_text("N");
   command->add_option("--operators", options->operators, "for apply; default: all")
       ->expected(1, -1)
       ->option_text("SPEC ...");
-  command->add_option("--sizes", options->sizes, "n x k for low-rank; default 221184x216 55296x864")
+  command
+      ->add_option("--sizes", options->sizes, "n x k for low-rank and device; default 221184x216 55296x864")
       ->expected(1, -1)
       ->option_text("NxK ...");
+  command->add_flag("--full", options->full, "for device: the documents' sizes in place of the quick ones");
+  command
+      ->add_option("--json", options->json_file,
+                   "for device: write what radiosity reproduce --device-results reads")
+      ->option_text("FILE");
   add_run_options(*command, options->run);
   command->callback([options, &program] { run_bench(*options, program); });
 }

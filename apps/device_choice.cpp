@@ -2,6 +2,7 @@
 
 #include "foundation/error.hpp"
 #include "gpu/gl_operators.hpp"
+#include "gpu/gl_solvers.hpp"
 #include "gpu/upload.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ Program on_device(const Program& program, const RunOptions& options, const std::
   require_known_device(options);
   if (options.device == "cpu") return program;
   for (const std::string& spec : specs) require_uploadable(spec);
-  return {gl_operators(open_device(options), program.operators), program.solvers};
+  return {gl_operators(open_device(options), program.operators), gl_solvers(program.solvers)};
 }
 
 void require_cpu(const RunOptions& options, const std::string& command) {

@@ -2,6 +2,7 @@
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
 #include "apps/terminal_monitor.hpp"
+#include "experiments/device/device_results.hpp"
 #include "experiments/dxt_radiosity/dxt_errors.hpp"
 #include "experiments/dxt_radiosity/dxt_pictures.hpp"
 #include "experiments/dxt_radiosity/dxt_speed.hpp"
@@ -40,6 +41,8 @@ struct ReproduceOptions {
   std::vector<std::string> tables;
   bool full = false;
   std::filesystem::path folder = "results";
+  std::filesystem::path device_results_file;
+  std::shared_ptr<const DeviceResults> device;  ///< what is in it; null: none
   RunOptions run;
 };
 
@@ -102,6 +105,7 @@ ReportSection run_low_rank_tables(const ReproduceOptions& options, const std::st
     study.streamed_seconds = 12;
   }
   study.seed = options.run.seed;
+  study.device = options.device;
   return low_rank_tables(options.folder, command, study, monitor);
 }
 
@@ -172,6 +176,7 @@ ReportSection run_dxt_speed(const ReproduceOptions& options, const std::string& 
     study.seconds = 4;
   }
   study.seed = options.run.seed;
+  study.device = options.device;
   return dxt_speed(options.folder, command, study, program.operators, program.solvers, monitor);
 }
 
@@ -239,10 +244,20 @@ std::string machine_text(const Machine& machine) {
                      machine.load);
 }
 
-void run_reproduce(const ReproduceOptions& options, const Program& program) {
+/// The command that makes one section again.
+std::string command_of(const ReproduceOptions& options, const Experiment& experiment) {
+  std::string command =
+      fmt::format("radiosity reproduce {}{}", experiment.name, options.full ? " --full" : "");
+  if (options.device) command += " --device-results " + options.device_results_file.string();
+  return command;
+}
+
+void run_reproduce(ReproduceOptions options, const Program& program) {
   const ThreadLimit limit(options.run.threads);
   require_cpu(options.run, "reproduce");
   require_known_tables(options.tables);
+  if (!options.device_results_file.empty())
+    options.device = std::make_shared<const DeviceResults>(read_device_results(options.device_results_file));
   TerminalMonitor monitor(options.run.quiet);
 
   Report report;
@@ -251,9 +266,7 @@ void run_reproduce(const ReproduceOptions& options, const Program& program) {
   report.date = fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)));
   for (const Experiment& experiment : experiments) {
     if (!wanted(options, experiment)) continue;
-    const std::string command =
-        fmt::format("radiosity reproduce {}{}", experiment.name, options.full ? " --full" : "");
-    report.sections.push_back(experiment.run(options, command, program, monitor));
+    report.sections.push_back(experiment.run(options, command_of(options, experiment), program, monitor));
   }
   const std::filesystem::path file = options.folder / "report.html";
   write_report(file, report);
@@ -273,6 +286,10 @@ void add_reproduce_command(CLI::App& app, const Program& program) {
   command->add_flag("--full", options->full, "the full sizes in place of the quick ones");
   command->add_option("--into", options->folder, "folder of the results; default results")
       ->option_text("FOLDER");
+  command
+      ->add_option("--device-results", options->device_results_file,
+                   "columns of a graphics device, from radiosity bench --device gl --json FILE")
+      ->option_text("FILE");
   add_run_options(*command, options->run);
   command->callback([options, &program] { run_reproduce(*options, program); });
 }

@@ -122,6 +122,8 @@ void write_solution_json(const std::filesystem::path& file, const FormFactors& f
                     {"device", device_name(solution.device)},
                     {"renderer", renderer_json(solution.device)},
                     {"device_difference_max", device_difference_json(solution.device)},
+                    {"upload_seconds", solution.device ? Json(solution.device->upload_seconds) : Json()},
+                    {"device_seconds", solution.device ? Json(solution.device->device_seconds) : Json()},
                     {"bytes", solution.bytes},
                     {"build_seconds", solution.build_seconds},
                     {"solve_seconds", solution.solve_seconds},

@@ -12,16 +12,6 @@
 namespace radiosity {
 namespace {
 
-std::string cpu_model() {
-  std::ifstream information("/proc/cpuinfo");
-  for (std::string line; std::getline(information, line);) {
-    const auto colon = line.find(':');
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos && colon + 2 < line.size())
-      return line.substr(colon + 2);
-  }
-  return "unknown";
-}
-
 /// Twice what the last cache holds, within reason: touching fresh memory takes longer than reading it.
 std::size_t buffer_bytes() {
   constexpr std::size_t least = std::size_t{1} << 28;
@@ -58,8 +48,18 @@ double available_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+std::string processor_name() {
+  std::ifstream information("/proc/cpuinfo");
+  for (std::string line; std::getline(information, line);) {
+    const auto colon = line.find(':');
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos && colon + 2 < line.size())
+      return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
 Machine measure_machine() {
-  return {cpu_model(), ThreadLimit::current(), measure_read_bandwidth(), load_average()};
+  return {processor_name(), ThreadLimit::current(), measure_read_bandwidth(), load_average()};
 }
 
 }  // namespace radiosity

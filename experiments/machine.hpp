@@ -12,6 +12,9 @@ struct Machine {
   double load = 0;                 ///< the system's load average of the last minute: above 0 means company
 };
 
+/// The model name of the processor.
+std::string processor_name();
+
 /// Reads the description of this machine and measures its bandwidth; takes about half a second.
 Machine measure_machine();
 

@@ -1,6 +1,5 @@
 #include "gpu/bc4_on_device.hpp"
 
-#include "foundation/error.hpp"
 #include "kernels/stored_number.hpp"
 
 #include <algorithm>
@@ -85,31 +84,18 @@ Bc4OnDevice::Bc4OnDevice(std::shared_ptr<GlDevice> device_of_tiles,
          std::make_unique<CsrOnDevice>(device_of_tiles, differences_from_texels(tiles, scale_), strategy)});
 }
 
-std::vector<Bc4OnDevice::Part> Bc4OnDevice::upload_blocks(const QuantizedTiles& tiles) const {
-  const GlContext& context = *device().context();
+StoredRows Bc4OnDevice::upload_blocks(const QuantizedTiles& tiles) const {
   const Index tile_rows = tiles.directory().tile_rows();
-  const Index row_bytes = tile_rows * tiles.record_bytes();
-  const Index most = row_bytes == 0 ? 1 : context.limits().storage_block_bytes / row_bytes;
-  if (most == 0)
-    fail(
-        "a row of tiles takes {} bytes, and a storage block of '{}' at most {}: use fewer patches or "
-        "--device cpu",
-        row_bytes, context.renderer(), context.limits().storage_block_bytes);
-  std::vector<Part> parts;
-  for (Index first = 0; first < tile_rows; first += most) {
-    const Index count = std::min(most, tile_rows - first);
-    GlBuffer blocks(device().context(), static_cast<std::size_t>(count * row_bytes));
-    blocks.write(0, blocks.bytes(), tiles.record(first * tile_rows));
-    parts.push_back({first, count, std::move(blocks)});
-  }
-  context.check("sending tiles");
-  return parts;
+  return {
+      device().context(),
+      {.rows = tile_rows, .row_bytes = tile_rows * tiles.record_bytes(), .subject = "a row of tiles takes"},
+      [&](Index row) { return tiles.record(row * tile_rows); }};
 }
 
 ByteCount Bc4OnDevice::bytes() const {
   ByteCount bytes{{{"texels", 0}, {"exact", 0}, {"indices", 0}}};
   for (const Channel& channel : channels_) {
-    for (const Part& part : channel.parts) bytes.parts[0].second += part.blocks.bytes();
+    bytes.parts[0].second += channel.tile_rows.bytes();
     const ByteCount exact = channel.exact->bytes();
     for (std::size_t part = 0; part < exact.parts.size(); ++part)
       bytes.parts[part + 1].second += exact.parts[part].second;
@@ -120,22 +106,22 @@ ByteCount Bc4OnDevice::bytes() const {
 void Bc4OnDevice::dispatch(Index columns) const {
   const auto step = static_cast<Index>(channels_.size());
   for (Index channel = 0; channel < step; ++channel)
-    for (const Part& part : channels_[static_cast<std::size_t>(channel)].parts)
+    for (const StoredRows::Part& part : channels_[static_cast<std::size_t>(channel)].tile_rows.parts())
       dispatch_part(channels_[static_cast<std::size_t>(channel)], part, channel, step, columns);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   for (Index channel = 0; channel < step; ++channel)
     channels_[static_cast<std::size_t>(channel)].exact->dispatch_sum(channel, step, columns);
 }
 
-void Bc4OnDevice::dispatch_part(const Channel& channel, const Part& part, Index first_column, Index step,
-                                Index columns) const {
-  part.blocks.bind(bc4_blocks_binding);
-  const Index block_rows = part.tile_rows * block_rows_of_tile;
+void Bc4OnDevice::dispatch_part(const Channel& channel, const StoredRows::Part& part, Index first_column,
+                                Index step, Index columns) const {
+  part.buffer.bind(bc4_blocks_binding);
+  const Index block_rows = part.rows * block_rows_of_tile;
   const Index rows_together = invocations_of_bc4_group / lanes_of_blocks(strategy_);
   const Index count = (columns - first_column + step - 1) / step;
   shaders_.for_columns(device(), count, [&](const GlProgram& program, Index column) {
     program.set("tile_columns", FieldBuffers::padded(cols()) / QuantizedTiles::tile_size);
-    program.set("first_row", part.first_tile_row * QuantizedTiles::tile_size);
+    program.set("first_row", part.first_row * QuantizedTiles::tile_size);
     program.set("part_block_rows", block_rows);
     program.set("y_stride", FieldBuffers::padded(rows()));
     program.set("first_column", first_column + step * column);

@@ -2,6 +2,7 @@
 
 #include "gpu/csr_on_device.hpp"
 #include "gpu/device_matrix.hpp"
+#include "gpu/stored_rows.hpp"
 #include "kernels/quantized_tiles.hpp"
 
 #include <cstdint>
@@ -24,24 +25,19 @@ class Bc4OnDevice final : public DeviceMatrix {
               RowStrategy strategy);
 
   ByteCount bytes() const override;
+  double scale() const override { return scale_; }
 
  protected:
   void dispatch(Index columns) const override;
-  double scale() const override { return scale_; }
 
  private:
-  struct Part {
-    Index first_tile_row;
-    Index tile_rows;
-    GlBuffer blocks;
-  };
   struct Channel {
     std::uint32_t scale_bits;  ///< of float: its scale as a part of scale()
-    std::vector<Part> parts;
+    StoredRows tile_rows;
     std::unique_ptr<CsrOnDevice> exact;
   };
-  std::vector<Part> upload_blocks(const QuantizedTiles& tiles) const;
-  void dispatch_part(const Channel& channel, const Part& part, Index first_column, Index step,
+  StoredRows upload_blocks(const QuantizedTiles& tiles) const;
+  void dispatch_part(const Channel& channel, const StoredRows::Part& part, Index first_column, Index step,
                      Index columns) const;
 
   RowStrategy strategy_;

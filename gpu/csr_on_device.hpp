@@ -18,6 +18,7 @@ class CsrOnDevice final : public DeviceMatrix {
   CsrOnDevice(std::shared_ptr<GlDevice> device, const CsrMatrix<float>& matrix, RowStrategy strategy);
 
   ByteCount bytes() const override;
+  double scale() const override { return 1; }
 
   /// Y += M X, both bound as FieldBuffers says, for the columns first, first + step, ... below `columns`: for
   /// matrices that are a part of another.
@@ -28,7 +29,6 @@ class CsrOnDevice final : public DeviceMatrix {
 
  protected:
   void dispatch(Index columns) const override;
-  double scale() const override { return 1; }
 
  private:
   struct Block {

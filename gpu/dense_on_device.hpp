@@ -2,11 +2,10 @@
 
 #include "gpu/device_matrix.hpp"
 #include "gpu/shader_family.hpp"
+#include "gpu/stored_rows.hpp"
 #include "kernels/half.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
-
-#include <vector>
 
 namespace radiosity {
 
@@ -23,27 +22,22 @@ class DenseOnDevice final : public DeviceMatrix {
   DenseOnDevice(std::shared_ptr<GlDevice> device, const RowMajorMatrix<Scalar>& matrix, RowStrategy strategy);
 
   ByteCount bytes() const override;
+  double scale() const override { return scale_; }
   /// Over how many storage blocks it is split.
-  std::size_t blocks() const { return blocks_.size(); }
+  std::size_t blocks() const { return strips_.parts().size(); }
 
  protected:
   void dispatch(Index columns) const override;
-  double scale() const override { return scale_; }
 
  private:
-  struct Block {
-    Index first_row;
-    Index rows;  ///< a multiple of 64, padding included
-    GlBuffer entries;
-  };
   template <typename ReadStrip>
-  void upload(const ReadStrip& read_strip);
+  StoredRows upload(const ReadStrip& read_strip) const;
 
   Index stride_;
   double scale_;
   RowStrategy strategy_;
   ShaderFamily shaders_;
-  std::vector<Block> blocks_;
+  StoredRows strips_;  ///< of 64 rows each, padding included
 };
 
 extern template class DenseOnDevice<float>;

@@ -8,7 +8,7 @@ namespace radiosity {
 
 DeviceColourOperator::DeviceColourOperator(const ColourOperator& original, Matrices matrices,
                                            DeviceOrigin origin)
-    : OnDevice(std::move(matrices), std::move(origin)),
+    : DeviceOperator(std::move(matrices), std::move(origin)),
       reflectance_(original.reflectance()),
       inverse_colours_(sender_colours(reflectance_).array().inverse()),
       global_(original.global()) {}
@@ -35,21 +35,15 @@ void DeviceBouncesOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y)
   });
 }
 
-namespace {
-
-std::vector<std::unique_ptr<DeviceMatrix>> list_of(std::unique_ptr<DeviceMatrix> matrix) {
-  std::vector<std::unique_ptr<DeviceMatrix>> list;
-  list.push_back(std::move(matrix));
-  return list;
-}
-
-}  // namespace
-
 DeviceTextureOperator::DeviceTextureOperator(const ColourOperator& original,
                                              std::unique_ptr<DeviceMatrix> texture, std::vector<Index> order,
                                              DeviceOrigin origin)
-    : DeviceColourOperator(original, list_of(std::move(texture)), std::move(origin)),
-      order_(std::move(order)) {}
+    : DeviceColourOperator(original, only(std::move(texture)), std::move(origin)), order_(std::move(order)) {}
+
+std::optional<DeviceTransport> DeviceTextureOperator::transport_on_device() const {
+  if (global()) return std::nullopt;
+  return DeviceTransport{&matrix(), reflectance().array(), inverse_colours(), order_};
+}
 
 void DeviceTextureOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y) const {
   const Field sorted = X(order_, Eigen::all);

@@ -11,17 +11,11 @@ namespace radiosity {
 
 /// Document 000's R M C^-1, or E + R M C^-1 E where global (operators/colour_operator.hpp), with M on the
 /// device.
-class DeviceColourOperator : public LinearOperator, public OnDevice {
+class DeviceColourOperator : public DeviceOperator<LinearOperator> {
  public:
   Index size() const override { return reflectance_.rows(); }
   Index channels() const override { return reflectance_.cols(); }
   bool global() const override { return global_; }
-  ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
-  std::string describe() const override { return origin().spec; }
-  std::string remark() const override { return origin().remark; }
-  double product_roundoff() const override { return 0x1p-24; }
-  Certificate certificate() const override { return origin().certificate; }
-  std::optional<DeviceUse> device_use() const override { return use(); }
 
  protected:
   DeviceColourOperator(const ColourOperator& original, Matrices matrices, DeviceOrigin origin);
@@ -30,6 +24,9 @@ class DeviceColourOperator : public LinearOperator, public OnDevice {
   virtual void multiply_colours(const ConstFieldRef& X, FieldRef Y) const = 0;
 
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
+
+  const Eigen::MatrixXd& reflectance() const { return reflectance_; }
+  const Eigen::ArrayXXd& inverse_colours() const { return inverse_colours_; }
 
  private:
   Eigen::MatrixXd reflectance_;
@@ -55,6 +52,8 @@ class DeviceTextureOperator final : public DeviceColourOperator {
   /// order[p]: the patch at place p.
   DeviceTextureOperator(const ColourOperator& original, std::unique_ptr<DeviceMatrix> texture,
                         std::vector<Index> order, DeviceOrigin origin);
+
+  std::optional<DeviceTransport> transport_on_device() const override;
 
  protected:
   void multiply_colours(const ConstFieldRef& X, FieldRef Y) const override;

@@ -2,6 +2,7 @@
 
 #include "gpu/device_operator.hpp"
 #include "gpu/factors_on_device.hpp"
+#include "gpu/hybrid_factors.hpp"
 #include "operators/low_rank_operator.hpp"
 
 #include <memory>
@@ -26,7 +27,28 @@ class DeviceFactorsOperator final : public DeviceMatrixOperator, public LowRankF
   const FactorsOnDevice* factors_;  ///< the matrix of the operator
 };
 
-/// The same for a symmetric kernel: R A^{-1/2} U V' A^{1/2}.
+/// R U V' with U on the device and V on the CPU.
+class HybridFactorsOperator final : public DeviceMatrixOperator, public LowRankFactors {
+ public:
+  HybridFactorsOperator(const MatrixOperator& original, std::unique_ptr<HybridFactors> factors,
+                        DeviceOrigin origin);
+
+  /// None: fields have to come to the CPU for V'.
+  std::optional<DeviceTransport> transport_on_device() const override { return std::nullopt; }
+
+  Index rank() const override { return factors_->rank(); }
+  void multiply_left(const ConstFieldRef& C, FieldRef Y) const override { factors_->multiply_left(C, Y); }
+  void multiply_right_transposed(const ConstFieldRef& X, FieldRef C) const override {
+    factors_->multiply_right_transposed(X, C);
+  }
+  const Eigen::MatrixXd& albedo() const override { return reflectance(); }
+  std::size_t right_bytes() const override { return factors_->right_bytes(); }
+
+ private:
+  const HybridFactors* factors_;  ///< the matrix of the operator
+};
+
+/// The same as the first for a symmetric kernel: R A^{-1/2} U V' A^{1/2}.
 class DeviceKernelFactorsOperator final : public DeviceKernelOperator, public LowRankFactors {
  public:
   DeviceKernelFactorsOperator(const KernelOperator& original, std::unique_ptr<FactorsOnDevice> factors,

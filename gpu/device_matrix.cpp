@@ -3,6 +3,7 @@
 #include "foundation/error.hpp"
 
 #include <algorithm>
+#include <epoxy/gl.h>
 
 namespace radiosity {
 namespace {
@@ -40,9 +41,16 @@ void DeviceMatrix::run(const ConstFieldRef& X, FieldRef Y, double scale,
       dispatch_columns(columns);
     }
     device_->fields().receive(scale, Y.middleCols(first, columns));
-    device_seconds_ = device_seconds_ + device_->timer().seconds();
+    count_device_seconds(device_->timer().seconds());
   }
   context.check("a product");
+}
+
+void DeviceMatrix::multiply_on_device(const GlBuffer& X, const GlBuffer& Y, Index columns) const {
+  X.bind(FieldBuffers::x_binding);
+  Y.bind(FieldBuffers::y_binding);
+  dispatch(columns);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 }  // namespace radiosity

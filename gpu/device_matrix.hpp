@@ -20,13 +20,23 @@ class DeviceMatrix {
 
   /// Y = M X for c > 0 columns, as products of SymmetricTiles<float> have it (kernels/products.hpp) but for
   /// the order of sums and the scaling of X, which is one a column. Y is written, never read.
-  void multiply(const ConstFieldRef& X, FieldRef Y) const;
+  virtual void multiply(const ConstFieldRef& X, FieldRef Y) const;
 
   /// What it takes of the device's memory, by part.
   virtual ByteCount bytes() const = 0;
 
+  /// M is this times the stored numbers.
+  virtual double scale() const = 0;
+  /// Y = M X / scale() for fields that are on the device, laid out as FieldBuffers has them, and other
+  /// shaders may read Y. The context is current.
+  void multiply_on_device(const GlBuffer& X, const GlBuffer& Y, Index columns) const;
+
   /// Time of the device in products so far: without sending and receiving fields.
   double device_seconds() const { return device_seconds_; }
+  /// For what else is computed with it there, step by step.
+  void count_device_seconds(double seconds) const { device_seconds_ = device_seconds_ + seconds; }
+
+  GlDevice& device() const { return *device_; }
 
  protected:
   DeviceMatrix(std::shared_ptr<GlDevice> device, Index rows, Index cols)
@@ -34,16 +44,12 @@ class DeviceMatrix {
   DeviceMatrix(const DeviceMatrix&) = delete;
   DeviceMatrix& operator=(const DeviceMatrix&) = delete;
 
-  GlDevice& device() const { return *device_; }
-
   /// Y = scale times what `dispatch_columns` makes of X, both bound as FieldBuffers says; timed.
   void run(const ConstFieldRef& X, FieldRef Y, double scale,
            const std::function<void(Index columns)>& dispatch_columns) const;
 
   /// Has the device compute Y of `columns` columns from X, both bound as FieldBuffers says.
   virtual void dispatch(Index columns) const = 0;
-  /// M is this times the stored numbers.
-  virtual double scale() const = 0;
 
  private:
   std::shared_ptr<GlDevice> device_;

@@ -7,6 +7,12 @@
 
 namespace radiosity {
 
+OnDevice::Matrices OnDevice::only(std::unique_ptr<DeviceMatrix> matrix) {
+  Matrices matrices;
+  matrices.push_back(std::move(matrix));
+  return matrices;
+}
+
 DeviceUse OnDevice::use() const {
   DeviceUse use = origin_.use;
   for (const auto& matrix : matrices_) use.device_seconds += matrix->device_seconds();
@@ -26,12 +32,21 @@ ByteCount OnDevice::bytes_with_diagonals(Index n, Index channels) const {
 
 DeviceKernelOperator::DeviceKernelOperator(const KernelOperator& original,
                                            std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
-    : KernelOperator(original.root_area(), original.reflectance()),
-      OnDevice(std::move(matrix), std::move(origin)) {}
+    : DeviceOperator(only(std::move(matrix)), std::move(origin), original.root_area(),
+                     original.reflectance()) {}
+
+std::optional<DeviceTransport> DeviceKernelOperator::transport_on_device() const {
+  return DeviceTransport{&matrix(), reflectance().array().colwise() / root_area().array(),
+                         root_area().array().replicate(1, channels())};
+}
 
 DeviceMatrixOperator::DeviceMatrixOperator(const MatrixOperator& original,
                                            std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
-    : OnDevice(std::move(matrix), std::move(origin)), reflectance_(original.reflectance()) {}
+    : DeviceOperator(only(std::move(matrix)), std::move(origin)), reflectance_(original.reflectance()) {}
+
+std::optional<DeviceTransport> DeviceMatrixOperator::transport_on_device() const {
+  return DeviceTransport{&matrix(), reflectance_.array(), Eigen::ArrayXXd::Ones(size(), channels())};
+}
 
 void DeviceMatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
   Field product(X.rows(), X.cols());

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "gpu/device_matrix.hpp"
+#include "gpu/device_transport.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,12 +27,15 @@ class OnDevice {
   /// Found when it is compared with the CPU's (DeviceUse::difference_max).
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
 
+  /// What solvers that stay on the device multiply with, with the reflectances of now; empty for operators
+  /// that are not T or take more than one matrix.
+  virtual std::optional<DeviceTransport> transport_on_device() const { return std::nullopt; }
+
  protected:
   using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
 
-  OnDevice(std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin) : origin_(std::move(origin)) {
-    matrices_.push_back(std::move(matrix));
-  }
+  static Matrices only(std::unique_ptr<DeviceMatrix> matrix);
+
   OnDevice(Matrices matrices, DeviceOrigin origin)
       : matrices_(std::move(matrices)), origin_(std::move(origin)) {}
 
@@ -45,26 +49,40 @@ class OnDevice {
   DeviceOrigin origin_;
 };
 
+/// What is the same in all of them, on top of Base, a kind of LinearOperator: they tell of themselves what
+/// their origin does, but for what they take of the device's memory.
+template <typename Base>
+class DeviceOperator : public Base, public OnDevice {
+ public:
+  ByteCount bytes() const final { return bytes_with_diagonals(this->size(), this->channels()); }
+  std::string describe() const final { return origin().spec; }
+  std::string remark() const final { return origin().remark; }
+  double product_roundoff() const final { return 0x1p-24; }
+  Certificate certificate() const final { return origin().certificate; }
+  std::optional<DeviceUse> device_use() const final { return use(); }
+
+ protected:
+  /// The rest makes Base.
+  template <typename... Arguments>
+  DeviceOperator(Matrices matrices, DeviceOrigin origin, Arguments&&... arguments)
+      : Base(std::forward<Arguments>(arguments)...), OnDevice(std::move(matrices), std::move(origin)) {}
+};
+
 /// R A^{-1/2} K A^{1/2} with K on the device, its diagonals on the CPU in double precision.
-class DeviceKernelOperator : public KernelOperator, public OnDevice {
+class DeviceKernelOperator : public DeviceOperator<KernelOperator> {
  public:
   /// `matrix` is K; areas and reflectances are those of `original`.
   DeviceKernelOperator(const KernelOperator& original, std::unique_ptr<DeviceMatrix> matrix,
                        DeviceOrigin origin);
 
-  ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
-  std::string describe() const override { return origin().spec; }
-  std::string remark() const override { return origin().remark; }
-  double product_roundoff() const override { return 0x1p-24; }
-  Certificate certificate() const override { return origin().certificate; }
-  std::optional<DeviceUse> device_use() const override { return use(); }
+  std::optional<DeviceTransport> transport_on_device() const override;
 
  protected:
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { matrix().multiply(X, Y); }
 };
 
 /// R F with F on the device.
-class DeviceMatrixOperator : public LinearOperator, public OnDevice {
+class DeviceMatrixOperator : public DeviceOperator<LinearOperator> {
  public:
   /// `matrix` is F; reflectances are those of `original`.
   DeviceMatrixOperator(const MatrixOperator& original, std::unique_ptr<DeviceMatrix> matrix,
@@ -73,12 +91,7 @@ class DeviceMatrixOperator : public LinearOperator, public OnDevice {
   const Eigen::MatrixXd& reflectance() const { return reflectance_; }
   Index size() const override { return reflectance_.rows(); }
   Index channels() const override { return reflectance_.cols(); }
-  ByteCount bytes() const override { return bytes_with_diagonals(size(), channels()); }
-  std::string describe() const override { return origin().spec; }
-  std::string remark() const override { return origin().remark; }
-  double product_roundoff() const override { return 0x1p-24; }
-  Certificate certificate() const override { return origin().certificate; }
-  std::optional<DeviceUse> device_use() const override { return use(); }
+  std::optional<DeviceTransport> transport_on_device() const override;
 
  protected:
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;

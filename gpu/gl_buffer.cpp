@@ -31,11 +31,18 @@ void GlBuffer::write(std::size_t offset, std::size_t bytes, const void* data) {
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, name_);
   glBufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                   data);
+  context_->count_sent(bytes);
 }
 
 void GlBuffer::read(std::size_t bytes, void* data) const {
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, name_);
   glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+  context_->count_received(bytes);
+}
+
+void GlBuffer::clear() {
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, name_);
+  glClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 void GlBuffer::bind(unsigned binding) const {

@@ -25,6 +25,8 @@ class GlBuffer {
   void write(std::size_t offset, std::size_t bytes, const void* data);
   /// Copies its first bytes back: waits until what wrote them is done. A memory barrier comes before it.
   void read(std::size_t bytes, void* data) const;
+  /// Sets all of it to zero bits.
+  void clear();
   /// As storage block `binding` of the shaders.
   void bind(unsigned binding) const;
 

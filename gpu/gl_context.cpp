@@ -145,6 +145,16 @@ GlContext::~GlContext() {
   if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
 }
 
+void GlContext::count_sent(std::size_t bytes) const {
+  ++traffic_.sendings;
+  traffic_.sent_bytes += bytes;
+}
+
+void GlContext::count_received(std::size_t bytes) const {
+  ++traffic_.receipts;
+  traffic_.received_bytes += bytes;
+}
+
 void GlContext::check(const std::string& work) const {
   const GLenum error = glGetError();
   const std::string complaint = std::exchange(complaint_, {});

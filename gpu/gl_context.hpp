@@ -3,6 +3,7 @@
 #include "gpu/gl_library.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -19,6 +20,14 @@ struct GlLimits {
   std::array<int, 3> group_size{};       ///< invocations of a work group, each way
   int group_invocations = 0;             ///< and in all
   int shared_bytes = 0;                  ///< of a work group
+};
+
+/// What has gone between the processor's memory and the device's so far.
+struct GlTraffic {
+  std::uint64_t sendings = 0;
+  std::uint64_t sent_bytes = 0;
+  std::uint64_t receipts = 0;  ///< each waits for the device
+  std::uint64_t received_bytes = 0;
 };
 
 #ifdef NDEBUG
@@ -56,6 +65,11 @@ class GlContext {
   bool debug() const { return debug_; }
   const GlLimits& limits() const { return limits_; }
 
+  /// The context is current in these three.
+  const GlTraffic& traffic() const { return traffic_; }
+  void count_sent(std::size_t bytes) const;
+  void count_received(std::size_t bytes) const;
+
   /// Throws Error if OpenGL reported an error since the last call: of any kind in a debug context, else what
   /// glGetError says. `work` names what was done ("a buffer of 12 bytes"). The context is current.
   void check(const std::string& work) const;
@@ -85,7 +99,8 @@ class GlContext {
   bool debug_ = false;
   GlLimits limits_;
   mutable std::recursive_mutex mutex_;
-  mutable int depth_ = 0;          ///< of CurrentContexts that the thread which has the mutex holds
+  mutable int depth_ = 0;  ///< of CurrentContexts that the thread which has the mutex holds
+  mutable GlTraffic traffic_;
   mutable std::string complaint_;  ///< the first message of the debug output that is an error
 };
 

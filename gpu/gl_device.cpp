@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <epoxy/gl.h>
+
 namespace radiosity {
 
 std::shared_ptr<GlDevice> GlDevice::open(const GlContextOptions& options) {
@@ -15,6 +17,10 @@ const GlProgram& GlDevice::program(const ShaderVariant& variant) {
     if (known == variant) return *program;
   programs_.emplace_back(variant, std::make_unique<GlProgram>(context_, variant));
   return *programs_.back().second;
+}
+
+void GlDevice::flush() const {
+  glFlush();
 }
 
 std::string renderer_text(const GlContext& context) {

@@ -27,6 +27,8 @@ class GlDevice {
   GlTimer& timer() { return timer_; }
   /// Compiled when it is asked for first.
   const GlProgram& program(const ShaderVariant& variant);
+  /// Has it begin with what was asked of it, while the CPU goes on.
+  void flush() const;
   /// What suits the renderer.
   RowStrategy preferred_strategy() const {
     return context_->software() ? RowStrategy::invocation : RowStrategy::group;

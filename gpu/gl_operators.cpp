@@ -11,14 +11,20 @@
 namespace radiosity {
 namespace {
 
-/// Of those that have rows to share out.
 std::optional<RowStrategy> take_strategy(Spec& spec) {
-  constexpr std::array<std::string_view, 4> names = {"dense", "csr", "bounces", "dxt"};
-  if (std::find(names.begin(), names.end(), spec.name()) == names.end()) return std::nullopt;
   const std::string strategy = spec.choice("strategy", "auto", {"auto", "group", "invocation"});
   if (strategy == "group") return RowStrategy::group;
   if (strategy == "invocation") return RowStrategy::invocation;
   return std::nullopt;
+}
+
+/// Of those that have factors.
+Placement take_placement(Spec& spec) {
+  constexpr std::array<std::string_view, 8> names = {"svd",      "rsvd", "qr",      "2msc",
+                                                     "sparse-v", "cur",  "wavelet", "dct"};
+  if (std::find(names.begin(), names.end(), spec.name()) == names.end()) return Placement::device;
+  return spec.choice("placement", "device", {"device", "hybrid"}) == "hybrid" ? Placement::hybrid
+                                                                              : Placement::device;
 }
 
 }  // namespace
@@ -29,7 +35,8 @@ OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const Ope
     entry.make = [make = entry.make, device](Spec& spec, const FormFactors& form_factors) {
       require_uploadable(spec.name());
       const std::optional<RowStrategy> strategy = take_strategy(spec);
-      return upload(device, *make(spec, form_factors), strategy);
+      const Placement placement = take_placement(spec);
+      return upload(device, *make(spec, form_factors), strategy, placement);
     };
     registry.add(std::move(entry));
   }

@@ -18,14 +18,14 @@ std::size_t bytes_of_floats(Index numbers) {
 }  // namespace
 
 LowRankOnDevice::LowRankOnDevice(std::shared_ptr<GlDevice> device_of_factors, const TallMatrix<float>& U,
-                                 const TallMatrix<float>& V)
-    : FactorsOnDevice(device_of_factors, U.rows(), U.columns()), left_(device_of_factors, U) {
-  right_.emplace(device_of_factors, V);
+                                 const TallMatrix<float>& V, RowStrategy strategy)
+    : FactorsOnDevice(device_of_factors, U.rows(), U.columns()), left_(device_of_factors, U, strategy) {
+  right_.emplace(device_of_factors, V, strategy);
 }
 
 LowRankOnDevice::LowRankOnDevice(std::shared_ptr<GlDevice> device_of_factors, const TallMatrix<float>& Q,
-                                 const Eigen::VectorXd& values)
-    : FactorsOnDevice(device_of_factors, Q.rows(), Q.columns()), left_(device_of_factors, Q) {
+                                 const Eigen::VectorXd& values, RowStrategy strategy)
+    : FactorsOnDevice(device_of_factors, Q.rows(), Q.columns()), left_(device_of_factors, Q, strategy) {
   const CurrentContext current(*device().context());
   values_scale_ = storage_scale<float>(values.size() == 0 ? 0 : values.cwiseAbs().maxCoeff());
   const Eigen::VectorXf scaled = (values / values_scale_).cast<float>();

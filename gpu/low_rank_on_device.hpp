@@ -12,19 +12,20 @@ namespace radiosity {
 class LowRankOnDevice final : public FactorsOnDevice {
  public:
   /// F = U V'.
-  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const TallMatrix<float>& V);
+  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const TallMatrix<float>& V,
+                  RowStrategy strategy);
   /// K = Q diag(values) Q', as U = Q and V = Q diag(values).
-  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& Q,
-                  const Eigen::VectorXd& values);
+  LowRankOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& Q, const Eigen::VectorXd& values,
+                  RowStrategy strategy);
 
   ByteCount bytes() const override;
   std::size_t right_bytes() const override { return right().bytes(); }
+  double left_scale() const override { return left_.scale(); }
+  double right_scale() const override { return right().scale() * values_scale_; }
 
  protected:
   void dispatch_left(Index columns) const override { left_.multiply(columns); }
   void dispatch_right(Index columns) const override;
-  double left_scale() const override { return left_.scale(); }
-  double right_scale() const override { return right().scale() * values_scale_; }
 
  private:
   const TallOnDevice& right() const { return right_ ? *right_ : left_; }

@@ -31,9 +31,9 @@ GlBuffer buffer_of_list(const std::shared_ptr<GlDevice>& device, const std::vect
 }  // namespace
 
 SparseVOnDevice::SparseVOnDevice(std::shared_ptr<GlDevice> device_of_factors, const TallMatrix<float>& U,
-                                 const Segments& V)
+                                 const Segments& V, RowStrategy strategy)
     : FactorsOnDevice(device_of_factors, U.rows(), U.columns()),
-      left_(device_of_factors, U, !V.order().empty()),
+      left_(device_of_factors, U, strategy, !V.order().empty()),
       offsets_(buffer_of_list(device_of_factors,
                               std::vector<std::uint32_t>(V.offsets().begin(), V.offsets().end()))),
       segment_sums_("segment_sums.comp",

@@ -13,16 +13,17 @@ namespace radiosity {
 class SparseVOnDevice final : public FactorsOnDevice {
  public:
   /// U: n x k, its rows in the sorted order of V.
-  SparseVOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const Segments& V);
+  SparseVOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& U, const Segments& V,
+                  RowStrategy strategy);
 
   ByteCount bytes() const override;
   std::size_t right_bytes() const override;
+  double left_scale() const override { return left_.scale(); }
+  double right_scale() const override { return weight_scale_; }
 
  protected:
   void dispatch_left(Index columns) const override;
   void dispatch_right(Index columns) const override;
-  double left_scale() const override { return left_.scale(); }
-  double right_scale() const override { return weight_scale_; }
 
  private:
   TallOnDevice left_;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "gpu/shader_family.hpp"
+#include "gpu/stored_rows.hpp"
 #include "kernels/tall_matrix.hpp"
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace radiosity {
 
@@ -17,14 +17,16 @@ class TallOnDevice {
   static constexpr unsigned partial_binding = 3;
   static constexpr unsigned order_binding = 5;
 
+  /// `strategy`: group for a work group a panel or a column of it, invocation for some rows or columns each.
   /// `ordered`: row e of products goes to row order[e] of Y, with that list bound to order_binding. Throws
   /// Error where a panel does not fit into a storage block, or the factor not into the device.
-  TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, bool ordered = false);
+  TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<float>& matrix, RowStrategy strategy,
+               bool ordered = false);
 
   Index rows() const { return rows_; }
   Index columns() const { return columns_; }
   double scale() const { return scale_; }
-  std::size_t bytes() const;
+  std::size_t bytes() const { return panels_.bytes(); }
 
   /// Y = M C: coefficients are bound as X, the field as Y, both for FieldBuffers' bindings. Without scale().
   void multiply(Index columns) const;
@@ -35,17 +37,12 @@ class TallOnDevice {
   Index chunks() const;
 
  private:
-  struct Block {
-    Index first_panel;
-    Index panels;
-    GlBuffer entries;
-  };
-
   std::shared_ptr<GlDevice> device_;
   Index rows_;
   Index columns_;
   double scale_;
-  std::vector<Block> blocks_;
+  StoredRows panels_;
+  Index columns_of_group_;  ///< of M' X
   ShaderFamily product_;
   ShaderFamily transposed_;
 };

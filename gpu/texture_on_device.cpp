@@ -1,6 +1,5 @@
 #include "gpu/texture_on_device.hpp"
 
-#include "foundation/error.hpp"
 #include "kernels/stored_number.hpp"
 #include "kernels/texture_products.hpp"
 
@@ -39,6 +38,14 @@ std::vector<CsrMatrix<float>> compressed_rows(const std::vector<ExactRows>& exac
   return matrices;
 }
 
+StoredRows rows_of_blocks(const std::shared_ptr<const GlContext>& context, const ColourTexture& texture) {
+  const CurrentContext current(*context);
+  const Index row_bytes = texture.block_columns() * static_cast<Index>(sizeof(Bc1Block));
+  return {context,
+          {.rows = texture.block_rows(), .row_bytes = row_bytes, .subject = "a row of blocks takes"},
+          [&](Index row) { return texture.block_row(row); }};
+}
+
 GlBuffer empty_tables(const std::shared_ptr<const GlContext>& context) {
   const CurrentContext current(*context);
   return {context, (table_numbers + 3) * sizeof(float)};
@@ -52,11 +59,11 @@ TextureOnDevice::TextureOnDevice(std::shared_ptr<GlDevice> device_of_texture, co
       channels_(texture.channels()),
       block_columns_(texture.block_columns()),
       strategy_(strategy),
+      blocks_(rows_of_blocks(device_of_texture->context(), texture)),
       tables_(empty_tables(device_of_texture->context())) {
   std::vector<CsrMatrix<float>> matrices = compressed_rows(exact);
   scale_ = common_scale(texture, matrices);
   const CurrentContext current(*device().context());
-  upload_blocks(texture);
   upload_tables(texture);
   program_ = &device().program({"texture_product.comp",
                                 {{"CHANNELS", texture.channels()},
@@ -70,24 +77,6 @@ TextureOnDevice::TextureOnDevice(std::shared_ptr<GlDevice> device_of_texture, co
   }
 }
 
-void TextureOnDevice::upload_blocks(const ColourTexture& texture) {
-  const GlContext& context = *device().context();
-  const Index row_bytes = block_columns_ * static_cast<Index>(sizeof(Bc1Block));
-  const Index most = row_bytes == 0 ? 1 : context.limits().storage_block_bytes / row_bytes;
-  if (most == 0)
-    fail(
-        "a row of blocks takes {} bytes, and a storage block of '{}' at most {}: use fewer patches or "
-        "--device cpu",
-        row_bytes, context.renderer(), context.limits().storage_block_bytes);
-  for (Index first = 0; first < texture.block_rows(); first += most) {
-    const Index count = std::min(most, texture.block_rows() - first);
-    GlBuffer blocks(device().context(), static_cast<std::size_t>(count * row_bytes));
-    blocks.write(0, blocks.bytes(), texture.block_row(first));
-    parts_.push_back({first, count, std::move(blocks)});
-  }
-  context.check("sending a texture");
-}
-
 void TextureOnDevice::upload_tables(const ColourTexture& texture) {
   std::array<float, table_numbers + 3> numbers{};
   std::copy_n(texture.tables(), table_numbers, numbers.begin());
@@ -98,9 +87,7 @@ void TextureOnDevice::upload_tables(const ColourTexture& texture) {
 }
 
 ByteCount TextureOnDevice::bytes() const {
-  std::size_t texels = tables_.bytes();
-  for (const Part& part : parts_) texels += part.blocks.bytes();
-  ByteCount bytes{{{"texels", texels}, {"exact", 0}, {"indices", 0}}};
+  ByteCount bytes{{{"texels", tables_.bytes() + blocks_.bytes()}, {"exact", 0}, {"indices", 0}}};
   for (const auto& exact : exact_) {
     const ByteCount own = exact->bytes();
     for (std::size_t part = 0; part < own.parts.size(); ++part)
@@ -110,25 +97,25 @@ ByteCount TextureOnDevice::bytes() const {
 }
 
 void TextureOnDevice::dispatch(Index columns) const {
-  for (const Part& part : parts_)
+  for (const StoredRows::Part& part : blocks_.parts())
     for (Index first = 0; first < columns; first += channels_) dispatch_part(part, first);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   for (std::size_t channel = 0; channel < exact_.size(); ++channel)
     exact_[channel]->dispatch_sum(static_cast<Index>(channel), channels_, columns);
 }
 
-void TextureOnDevice::dispatch_part(const Part& part, Index first_column) const {
-  part.blocks.bind(blocks_binding);
+void TextureOnDevice::dispatch_part(const StoredRows::Part& part, Index first_column) const {
+  part.buffer.bind(blocks_binding);
   tables_.bind(tables_binding);
   const Index rows_together = invocations_of_texture_group / lanes_of(strategy_);
   const GlProgram& program = *program_;
   program.use();
   program.set("block_columns", block_columns_);
-  program.set("first_block_row", part.first_block_row);
-  program.set("part_block_rows", part.block_rows);
+  program.set("first_block_row", part.first_row);
+  program.set("part_block_rows", part.rows);
   program.set("y_stride", FieldBuffers::padded(rows()));
   program.set("first_column", first_column);
-  program.dispatch((part.block_rows + rows_together - 1) / rows_together);
+  program.dispatch((part.rows + rows_together - 1) / rows_together);
 }
 
 }  // namespace radiosity

@@ -2,6 +2,7 @@
 
 #include "gpu/csr_on_device.hpp"
 #include "gpu/device_matrix.hpp"
+#include "gpu/stored_rows.hpp"
 #include "kernels/colour_texture.hpp"
 #include "kernels/exact_rows.hpp"
 
@@ -22,27 +23,21 @@ class TextureOnDevice final : public DeviceMatrix {
                   const std::vector<ExactRows>& exact, RowStrategy strategy);
 
   ByteCount bytes() const override;
+  double scale() const override { return scale_; }
 
  protected:
   void dispatch(Index columns) const override;
-  double scale() const override { return scale_; }
 
  private:
-  struct Part {
-    Index first_block_row;
-    Index block_rows;
-    GlBuffer blocks;
-  };
-  void upload_blocks(const ColourTexture& texture);
   void upload_tables(const ColourTexture& texture);
-  void dispatch_part(const Part& part, Index first_column) const;
+  void dispatch_part(const StoredRows::Part& part, Index first_column) const;
 
   Index channels_;
   Index block_columns_;
   double scale_;
   RowStrategy strategy_;
   const GlProgram* program_ = nullptr;  ///< the device's
-  std::vector<Part> parts_;
+  StoredRows blocks_;                   ///< a row for four of the matrix
   GlBuffer tables_;  ///< of ColourTexture, and the part that each channel's scale is of scale()
   std::vector<std::unique_ptr<CsrOnDevice>> exact_;
 };

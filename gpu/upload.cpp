@@ -30,24 +30,28 @@ namespace {
                    fmt::join(uploadable_specs(), ", "));
 }
 
-std::string spec_on_device(const LinearOperator& original, std::optional<RowStrategy> strategy) {
-  if (!strategy) return original.describe();
-  return with_keys(original.describe(),
-                   *strategy == RowStrategy::group ? "strategy=group" : "strategy=invocation");
+std::string spec_on_device(const LinearOperator& original, std::optional<RowStrategy> strategy,
+                           Placement placement) {
+  std::string spec = original.describe();
+  if (strategy)
+    spec = with_keys(spec, *strategy == RowStrategy::group ? "strategy=group" : "strategy=invocation");
+  return placement == Placement::hybrid ? with_keys(spec, "placement=hybrid") : spec;
 }
 
 /// Copies one operator to a device, matrix by matrix.
 class Uploader {
  public:
   Uploader(std::shared_ptr<GlDevice> device, const LinearOperator& original,
-           std::optional<RowStrategy> strategy)
+           std::optional<RowStrategy> strategy, Placement placement)
       : device_(std::move(device)),
         original_(original),
         strategy_(strategy.value_or(device_->preferred_strategy())),
-        spec_(spec_on_device(original, strategy)) {}
+        placement_(placement),
+        spec_(spec_on_device(original, strategy, placement)) {}
 
   /// Throws UsageError for operators that have no form for the device.
   std::unique_ptr<LinearOperator> copy() const {
+    if (placement_ == Placement::hybrid) return copy_in_two_places();
     if (const auto* stored = dynamic_cast<const HasStoredMatrix*>(&original_))
       return with_diagonals(copy_stored(stored->stored()));
     if (const auto* stored = dynamic_cast<const HasStoredColours*>(&original_)) return copy_colours(*stored);
@@ -75,10 +79,24 @@ class Uploader {
                                                   std::move(matrix), origin());
   }
 
+  std::unique_ptr<LinearOperator> copy_in_two_places() const {
+    if (const auto* factors = dynamic_cast<const LowRankOperator<float>*>(&original_))
+      return in_two_places(*factors, factors->left_factor(), factors->right_factor().clone());
+    if (const auto* factors = dynamic_cast<const SparseVOperator<float>*>(&original_))
+      return in_two_places(*factors, factors->left_factor(), factors->right_factor());
+    fail<UsageError>("{}: placement=hybrid is for operators of low rank as U V' in float32", spec_);
+  }
+
+  std::unique_ptr<LinearOperator> in_two_places(const MatrixOperator& original, const TallMatrix<float>& left,
+                                                HybridFactors::RightFactor right) const {
+    auto factors = std::make_unique<HybridFactors>(device_, left, std::move(right), strategy_);
+    return std::make_unique<HybridFactorsOperator>(original, std::move(factors), origin());
+  }
+
   template <typename Operator, typename Factors, typename Original, typename Left, typename Right>
   std::unique_ptr<LinearOperator> with_factors(const Original& original, const Left& left,
                                                const Right& right) const {
-    auto factors = std::make_unique<Factors>(device_, left, right);
+    auto factors = std::make_unique<Factors>(device_, left, right, strategy_);
     return std::make_unique<Operator>(original, std::move(factors), origin());
   }
 
@@ -135,6 +153,7 @@ class Uploader {
   std::shared_ptr<GlDevice> device_;
   const LinearOperator& original_;
   RowStrategy strategy_;
+  Placement placement_;
   std::string spec_;
   Stopwatch watch_;
 };
@@ -182,8 +201,9 @@ double compare_products(const LinearOperator& original, const LinearOperator& co
 }
 
 std::unique_ptr<LinearOperator> upload(const std::shared_ptr<GlDevice>& device,
-                                       const LinearOperator& original, std::optional<RowStrategy> strategy) {
-  auto copy = Uploader(device, original, strategy).copy();
+                                       const LinearOperator& original, std::optional<RowStrategy> strategy,
+                                       Placement placement) {
+  auto copy = Uploader(device, original, strategy, placement).copy();
   dynamic_cast<OnDevice&>(*copy).set_difference(
       compare_products(original, *copy, device->context()->renderer()));
   return copy;

@@ -39,7 +39,8 @@ struct DeviceUse {
   double difference_max = 0;  ///< of a product from that of the CPU with the same stored numbers: the largest
                               ///< |difference| of a component, relative to the largest component
   double upload_seconds = 0;  ///< copying the operator to the device, once
-  double device_seconds = 0;  ///< of the device in products so far, fields on their way not included
+  double device_seconds = 0;  ///< of the device in products and steps of solvers so far, without fields on
+                              ///< their way
 };
 
 /// A linear map from a field on the patches to a field on the patches: T = R F, an approximation of it, a sum

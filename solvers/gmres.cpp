@@ -90,7 +90,7 @@ void Gmres::expand(Index j, const Eigen::VectorXd& product) {
     }
   // What is left of a vector that lies in the space already is rounding, of vectors of length 1 at least.
   double below = next.norm();
-  if (below <= 4 * unit_roundoff * std::max(1.0, length)) below = 0;
+  if (below <= 4 * double_roundoff * std::max(1.0, length)) below = 0;
   if (below > 0) column.basis.col(k + 1) = next / below;
   rotate(column, std::move(hessenberg), below);
   if (!(std::abs(column.triangle(k, k)) > singularity_threshold())) fail_as_singular();

@@ -20,7 +20,7 @@ void Lu::begin() {
       matrix = -(root_area().asDiagonal() * matrix * root_area().cwiseInverse().asDiagonal());
       matrix.diagonal().array() += 1;
       factors_.emplace_back(std::move(matrix));
-      if (factors_.back().reciprocal_condition() >= static_cast<double>(size()) * unit_roundoff) continue;
+      if (factors_.back().reciprocal_condition() >= static_cast<double>(size()) * double_roundoff) continue;
       factors_.clear();
       fail_as_singular();
     }

@@ -7,22 +7,28 @@
 
 namespace radiosity {
 
+NeumannForecast forecast_neumann(const LinearOperator& transport, const SolverOptions& options) {
+  const SpectralRadius radius = bound_spectral_radius(transport, std::min(20, options.max_products));
+  const double bound = require_contraction("neumann", radius);
+  const double predicted = bound == 0 ? 1 : std::ceil(std::log(options.tolerance) / std::log(bound));
+  const int left = options.max_products - radius.products;
+  if (predicted > left)
+    fail(
+        "neumann: needs about {:.0f} products at a spectral radius of up to {:.12g} and has a budget of {}: "
+        "use cg or "
+        "gmres, or allow more products.",
+        predicted, bound, left);
+  return {bound, std::max(1, static_cast<int>(predicted)), radius.products};
+}
+
 Neumann::Neumann(const SolverProblem& problem) : SteppedSolver("neumann", problem) {}
 
 void Neumann::begin() {
   mutable_radiosity() = emission();
   steps_ = 0;
-  const SpectralRadius radius = bound_spectral_radius(transport(), std::min(20, options().max_products));
-  spend_products(radius.products);
-  const double bound = require_contraction(name(), radius);
-  const double predicted = bound == 0 ? 1 : std::ceil(std::log(options().tolerance) / std::log(bound));
-  if (predicted > options().max_products - products())
-    fail(
-        "neumann: needs about {:.0f} products at a spectral radius of up to {:.12g} and has a budget of {}: "
-        "use cg or "
-        "gmres, or allow more products.",
-        predicted, bound, options().max_products - products());
-  predicted_steps_ = std::max(1, static_cast<int>(predicted));
+  const NeumannForecast forecast = forecast_neumann(transport(), options());
+  spend_products(forecast.products);
+  predicted_steps_ = forecast.steps;
 }
 
 void Neumann::advance() {

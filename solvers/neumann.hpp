@@ -5,6 +5,17 @@
 
 namespace radiosity {
 
+/// How the Neumann series is going to converge.
+struct NeumannForecast {
+  double bound = 0;  ///< of the spectral radius, below 1
+  int steps = 1;     ///< after which it promises ||T^k E|| <= tolerance ||E||: ln(tolerance) / ln(bound)
+  int products = 0;  ///< spent on the bound
+};
+
+/// Throws Error where the radius is not known to be below 1, or where the bound predicts more products than
+/// the budget allows.
+NeumannForecast forecast_neumann(const LinearOperator& transport, const SolverOptions& options);
+
 /// The Neumann series B_{k+1} = E + T B_k from B_0 = E, one bounce a step. T^{k+1} E = B_{k+1} - B_k is the
 /// residual of B_k: a column ends with the B_k whose residual has been seen, not with the update to it.
 /// start() bounds the spectral radius first and refuses where it is not below 1, or where the bound predicts
@@ -15,8 +26,7 @@ class Neumann final : public SteppedSolver {
 
   std::string describe() const override { return "neumann"; }
 
-  /// Steps after which the bound promises ||T^k E|| <= tolerance ||E||: ln(tolerance) / ln(bound). Known
-  /// after start().
+  /// NeumannForecast::steps; known after start().
   int predicted_steps() const { return predicted_steps_; }
 
  private:

@@ -31,7 +31,7 @@ Field patch_error_bounds(const KernelOperator& truth, const Field& emission, con
                      truth.channels(), emission.rows(), emission.cols(), radiosity.rows(), radiosity.cols());
   if (n == 0 || emission.cols() == 0) return Field::Zero(emission.rows(), emission.cols());
   // Row sums of T are at most 1 or so, so that the largest entry does for |x|.
-  const double product_error = truth.product_error() + 8 * unit_roundoff;
+  const double product_error = truth.product_error() + 8 * double_roundoff;
   Field gathered(n, radiosity.cols());
   truth.apply(radiosity, gathered);
   Field wanted = (emission + gathered - radiosity).cwiseAbs();

@@ -53,7 +53,7 @@ Field residual_rows(const std::vector<Index>& patches, const Eigen::MatrixXd& re
                     const std::function<Eigen::VectorXd(Index)>& row, const Field& emission,
                     const Field& radiosity) {
   const Index n = reflectance.rows();
-  const double rounding = 2 * static_cast<double>(n + 8) * unit_roundoff;
+  const double rounding = 2 * static_cast<double>(n + 8) * double_roundoff;
   Field residual(static_cast<Index>(patches.size()), emission.cols());
   parallel_for(patches.size(), [&](std::size_t k) {
     const Index i = patches[k];

@@ -126,7 +126,7 @@ void SteppedSolver::spend_products(int count) {
 }
 
 double SteppedSolver::singularity_threshold() const {
-  return 8 * std::sqrt(static_cast<double>(std::max<Index>(size(), 1))) * unit_roundoff;
+  return 8 * std::sqrt(static_cast<double>(std::max<Index>(size(), 1))) * double_roundoff;
 }
 
 void SteppedSolver::fail_as_singular() const {
@@ -138,13 +138,13 @@ void SteppedSolver::fail_as_singular() const {
 }
 
 double SteppedSolver::rounding_floor(Index column) const {
-  if (transport().product_roundoff() <= unit_roundoff) return 0;
+  if (transport().product_roundoff() <= double_roundoff) return 0;
   return transport().product_roundoff() * root_area().cwiseProduct(radiosity_.col(column)).norm();
 }
 
 void SteppedSolver::end_stagnated(Index column) {
   const double radiosity_norm = root_area().cwiseProduct(radiosity_.col(column)).norm();
-  const double by_rounding = unit_roundoff * radiosity_norm / emission_norms_[column];
+  const double by_rounding = double_roundoff * radiosity_norm / emission_norms_[column];
   const double by_products = transport().product_roundoff() * radiosity_norm / emission_norms_[column];
   const double reached = relative_residuals_[column];
   if (by_products > by_rounding && reached <= 8 * by_products) {

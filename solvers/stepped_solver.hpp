@@ -18,7 +18,7 @@ class SteppedSolver : public Solver {
   void start(const Field& emission) final;
   void step() final;
   bool converged() const final { return open_.empty(); }
-  const Field& radiosity() const final { return radiosity_; }
+  const Field& radiosity() const override { return radiosity_; }
   double residual() const final;
   int products() const final { return products_; }
 
@@ -101,6 +101,6 @@ class SteppedSolver : public Solver {
 };
 
 /// u = 2^-53, the unit roundoff of double.
-inline constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+inline constexpr double double_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 }  // namespace radiosity

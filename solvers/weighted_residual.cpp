@@ -45,7 +45,7 @@ WeightedResidual weighted_residual(const KernelOperator& truth, const Field& emi
 
   result.residual.resize(n, radiosity.cols());
   result.rounding.resize(radiosity.cols());
-  const double product_error = truth.product_error() + 8 * unit_roundoff;  // the diagonals' in it
+  const double product_error = truth.product_error() + 8 * double_roundoff;  // the diagonals' in it
   for (Index j = 0; j < radiosity.cols(); ++j) {
     for (Index i = 0; i < n; ++i) {
       const double own = root(i, j % channels);
@@ -75,7 +75,7 @@ Eigen::RowVectorXd largest_rows(const KernelOperator& truth) {
   if (truth.size() == 0) return Eigen::RowVectorXd::Zero(truth.channels());
   truth.apply_kernel(truth.root_area(), sums);
   const Eigen::ArrayXd rows = sums.col(0).cwiseQuotient(truth.root_area()).array();
-  const double allowance = 1 + 4 * static_cast<double>(truth.size() + 2) * unit_roundoff;
+  const double allowance = 1 + 4 * static_cast<double>(truth.size() + 2) * double_roundoff;
   return (truth.reflectance().array().colwise() * rows).colwise().maxCoeff() * allowance;
 }
 

@@ -197,10 +197,13 @@ DxtSpeeds measure_dxt_speeds(const DxtSpeedOptions& options, const OperatorRegis
   return speeds;
 }
 
-void write_dxt_speeds(const std::filesystem::path& folder, const DxtSpeeds& speeds) {
-  write_json(folder / "dxt_speed.json", {{"threads", speeds.threads},
-                                         {"over_patches", rounds_json(speeds.over_patches)},
-                                         {"over_bounces", rounds_json(speeds.over_bounces)}});
+void write_dxt_speeds(const std::filesystem::path& folder, const DxtSpeeds& speeds,
+                      const DeviceResults* device) {
+  Json json = {{"threads", speeds.threads},
+               {"over_patches", rounds_json(speeds.over_patches)},
+               {"over_bounces", rounds_json(speeds.over_bounces)}};
+  if (device != nullptr) json["device"] = device_results_json(*device);
+  write_json(folder / "dxt_speed.json", json);
   OutputFile file(folder / "dxt_speed.csv");
   file.stream() << "patches,bounces,method,bytes,min_seconds,median_seconds,error\n"
                 << csv_rounds(speeds.over_patches) << csv_rounds(speeds.over_bounces);
@@ -212,7 +215,7 @@ ReportSection dxt_speed(const std::filesystem::path& folder, const std::string& 
                         const SolverRegistry& solvers, Monitor& monitor) {
   make_folder(folder);
   const DxtSpeeds speeds = measure_dxt_speeds(options, operators, solvers, monitor);
-  write_dxt_speeds(folder, speeds);
+  write_dxt_speeds(folder, speeds, options.device.get());
   return dxt_speed_section(speeds, options, command);
 }
 

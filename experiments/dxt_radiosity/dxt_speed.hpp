@@ -1,11 +1,13 @@
 #pragma once
 
 #include "experiments/comparison.hpp"
+#include "experiments/device/device_results.hpp"
 #include "experiments/dxt_radiosity/light_answers.hpp"
 #include "experiments/report.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,7 @@ struct DxtSpeedOptions {
   LightCounts lights = {.area = 2, .point = 2, .patch = 2};  ///< of the errors; the first one is timed
   double seconds = 0.3;                                      ///< of timing, for each size and each k
   std::uint64_t seed = 1;
+  std::shared_ptr<const DeviceResults> device;  ///< measured beside; null: none
 };
 
 /// A method at one n and k.
@@ -83,8 +86,9 @@ std::string solver_finding(const DxtSpeeds& speeds);
 ReportSection dxt_speed_section(const DxtSpeeds& speeds, const DxtSpeedOptions& options,
                                 const std::string& command);
 
-/// dxt_speed.json and dxt_speed.csv.
-void write_dxt_speeds(const std::filesystem::path& folder, const DxtSpeeds& speeds);
+/// dxt_speed.json and dxt_speed.csv; `device`: null or what the JSON names as "device".
+void write_dxt_speeds(const std::filesystem::path& folder, const DxtSpeeds& speeds,
+                      const DeviceResults* device = nullptr);
 
 /// Measures, writes dxt_speed.json and .csv into `folder` (made if it is missing), returns the section.
 ReportSection dxt_speed(const std::filesystem::path& folder, const std::string& command,

@@ -1,3 +1,4 @@
+#include "experiments/device/device_benchmark.hpp"
 #include "experiments/dxt_radiosity/dxt_speed.hpp"
 #include "experiments/dxt_radiosity/published_errors.hpp"
 #include "experiments/svg_plot.hpp"
@@ -107,6 +108,18 @@ ReportFigure sizes_figure(const DxtSpeeds& speeds, const std::string& command) {
           to_svg(plot)};
 }
 
+/// Figures 11 and 12 and the times over k of a graphics device.
+void append_device_tables(const DxtSpeedOptions& options, const std::string& command,
+                          ReportSection& section) {
+  if (!options.device) return;
+  const DeviceResults& device = *options.device;
+  section.blocks.emplace_back(device_text(device));
+  section.blocks.emplace_back(
+      device_bounces_table(device, device.over_patches, "Figures 11 and 12: times and bytes", command));
+  section.blocks.emplace_back(
+      device_bounces_table(device, device.over_bounces, "Times over bounces", command));
+}
+
 ReportFigure bounces_figure(const DxtSpeeds& speeds, const std::string& command) {
   Plot plot;
   plot.title = "Time over bounces";
@@ -203,6 +216,7 @@ ReportSection dxt_speed_section(const DxtSpeeds& speeds, const DxtSpeedOptions& 
   section.blocks.emplace_back(ReportText{reading_finding(speeds)});
   section.blocks.emplace_back(ReportText{solver_finding(speeds)});
   section.blocks.emplace_back(sizes_figure(speeds, command));
+  append_device_tables(options, command, section);
   if (speeds.over_bounces.empty()) return section;
   section.blocks.emplace_back(speed_table(speeds.over_bounces, "The same over bounces.", command));
   section.blocks.emplace_back(bounces_figure(speeds, command));

@@ -5,10 +5,10 @@
 #include "experiments/low_rank_radiosity/frame_times.hpp"
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 #include "experiments/low_rank_radiosity/published_tables.hpp"
+#include "experiments/low_rank_radiosity/solved_factors.hpp"
 #include "foundation/error.hpp"
 #include "foundation/output_file.hpp"
 #include "foundation/parallel.hpp"
-#include "foundation/random.hpp"
 #include "foundation/stopwatch.hpp"
 #include "operators/direct_two_mesh.hpp"
 #include "scene/coarse_mesh.hpp"
@@ -26,12 +26,6 @@ double entries_of(const LowRankSize& size) {
   return static_cast<double>(size.rows) * static_cast<double>(size.rank);
 }
 
-/// V and Y of one size, rows sorted by patch.
-struct SolvedFactors {
-  Segments V;
-  TallMatrix<float> Y;
-};
-
 SolvedFactors compute_factors(const LowRankTablesOptions& options, LowRankTableRow& row, Monitor& monitor) {
   const Stopwatch factor_watch;
   const PatchMesh elements = cube_mesh(row.size.rows);
@@ -46,22 +40,6 @@ SolvedFactors compute_factors(const LowRankTablesOptions& options, LowRankTableR
   row.fold_seconds = fold_watch.seconds();
   row.computed = true;
   return {std::move(factors.V), std::move(Y)};
-}
-
-/// Numbers of the size of Y's, in as many equal segments.
-SolvedFactors random_factors(const LowRankTablesOptions& options, const LowRankSize& size) {
-  std::vector<std::int64_t> offsets(static_cast<std::size_t>(size.rank) + 1);
-  for (Index p = 0; p <= size.rank; ++p) offsets[static_cast<std::size_t>(p)] = size.rows * p / size.rank;
-  TallMatrix<float> Y(size.rows, size.rank);
-  const double largest = 2.0 / static_cast<double>(size.rows);
-  parallel_for(static_cast<std::size_t>(Y.panels()), [&](std::size_t index) {
-    const auto b = static_cast<Index>(index);
-    RandomStream random(options.seed, index);
-    Eigen::MatrixXd entries(std::min(Y.panel_rows, size.rows - b * Y.panel_rows), size.rank);
-    for (double& entry : entries.reshaped()) entry = -random.uniform(0, largest);
-    Y.fill_panel(b, entries);
-  });
-  return {Segments(std::move(offsets)), std::move(Y)};
 }
 
 /// Y, V in full, meshes and a batch of rows in double.
@@ -82,7 +60,7 @@ LowRankTableRow measure_table_row(const LowRankSize& size, bool with_full,
   require_memory(size, with_full);
   const SolvedFactors factors = entries_of(size) <= options.largest_computed
                                     ? compute_factors(options, row, monitor)
-                                    : random_factors(options, size);
+                                    : random_factors(size, options.seed);
   if (row.computed) row.errors = dense.compare(factors.V, factors.Y, monitor);
   row.sparse_bytes = factors.Y.entry_bytes() + factors.V.offset_bytes();
   std::optional<TallMatrix<float>> full;
@@ -136,7 +114,7 @@ ReportSection low_rank_tables(const std::filesystem::path& folder, const std::st
                               const LowRankTablesOptions& options, Monitor& monitor) {
   make_folder(folder);
   const LowRankTables tables = measure_low_rank_tables(options, monitor);
-  write_low_rank_tables(folder, tables);
+  write_low_rank_tables(folder, tables, options.device.get());
   return low_rank_tables_section(tables, options, command);
 }
 

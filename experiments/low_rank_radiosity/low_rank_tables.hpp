@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiments/comparison.hpp"
+#include "experiments/device/device_results.hpp"
 #include "experiments/low_rank_benchmark.hpp"
 #include "experiments/report.hpp"
 #include "foundation/monitor.hpp"
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +30,7 @@ struct LowRankTablesOptions {
   std::size_t cached_bytes = 100'000'000;           ///< of Y, below which bandwidth is not asked for
   double tolerance = 1e-3;                          ///< of each F_ep
   std::uint64_t seed = 1;
+  std::shared_ptr<const DeviceResults> device;  ///< for the columns of graphics processors; null: none
 
   /// The document's nine sizes and six large ones.
   LowRankTablesOptions();
@@ -85,8 +88,9 @@ LowRankTables measure_low_rank_tables(const LowRankTablesOptions& options, Monit
 ReportSection low_rank_tables_section(const LowRankTables& tables, const LowRankTablesOptions& options,
                                       const std::string& command);
 
-/// low_rank_tables.json and low_rank_tables.csv.
-void write_low_rank_tables(const std::filesystem::path& folder, const LowRankTables& tables);
+/// low_rank_tables.json and low_rank_tables.csv; `device`: null or what the JSON names as "device".
+void write_low_rank_tables(const std::filesystem::path& folder, const LowRankTables& tables,
+                           const DeviceResults* device = nullptr);
 
 /// Measures, writes low_rank_tables.json and .csv into `folder` (made if it is missing), returns the section.
 ReportSection low_rank_tables(const std::filesystem::path& folder, const std::string& command,

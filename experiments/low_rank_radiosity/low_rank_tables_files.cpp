@@ -68,13 +68,16 @@ std::string csv_lines(const std::vector<LowRankTableRow>& rows) {
 
 }  // namespace
 
-void write_low_rank_tables(const std::filesystem::path& folder, const LowRankTables& tables) {
-  write_json(folder / "low_rank_tables.json", {{"threads", tables.threads},
-                                               {"load_before", tables.load_before},
-                                               {"load_after", tables.load_after},
-                                               {"resident_bytes", tables.resident_bytes},
-                                               {"sizes", table_rows_json(tables.rows)},
-                                               {"large_sizes", table_rows_json(tables.large_rows)}});
+void write_low_rank_tables(const std::filesystem::path& folder, const LowRankTables& tables,
+                           const DeviceResults* device) {
+  Json json = {{"threads", tables.threads},
+               {"load_before", tables.load_before},
+               {"load_after", tables.load_after},
+               {"resident_bytes", tables.resident_bytes},
+               {"sizes", table_rows_json(tables.rows)},
+               {"large_sizes", table_rows_json(tables.large_rows)}};
+  if (device != nullptr) json["device"] = device_results_json(*device);
+  write_json(folder / "low_rank_tables.json", json);
   OutputFile file(folder / "low_rank_tables.csv");
   file.stream() << "n,k,computed,threads,columns,full_sums_min,full_sums_median,sparse_sums_min,"
                    "sparse_sums_median,full_frame_min,full_frame_median,sparse_frame_min,"

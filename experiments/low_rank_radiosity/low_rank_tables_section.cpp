@@ -1,3 +1,4 @@
+#include "experiments/device/device_benchmark.hpp"
 #include "experiments/low_rank_radiosity/low_rank_tables.hpp"
 #include "experiments/low_rank_radiosity/low_rank_tables_cells.hpp"
 #include "experiments/low_rank_radiosity/published_tables.hpp"
@@ -11,7 +12,43 @@
 namespace radiosity {
 namespace {
 
-constexpr const char* not_yet = "–";  // our columns of graphics processors
+/// Our columns of graphics processors, by one column of E, with E and B on the device.
+class DeviceColumns {
+ public:
+  explicit DeviceColumns(const DeviceResults* results) : results_(results) {}
+
+  /// "GPU full", or with the renderer's name.
+  std::string name(const std::string& kind = {}) const {
+    return (results_ != nullptr ? results_->renderer : "GPU") + (kind.empty() ? "" : " " + kind);
+  }
+  template <typename Number>
+  std::string cell(const LowRankSize& size, const Number& number) const {
+    const DeviceFrames* frames = results_ != nullptr ? results_->find(size, 1) : nullptr;
+    return table_number(frames != nullptr ? std::optional<double>(number(*frames)) : std::nullopt);
+  }
+
+ private:
+  const DeviceResults* results_;
+};
+
+std::optional<double> device_sums_speedup(const DeviceFrames& frames) {
+  if (!frames.full) return std::nullopt;
+  return frames.full->sums.min / frames.sparse.sums.min;
+}
+
+std::optional<double> device_frame_speedup(const DeviceFrames& frames) {
+  if (!frames.full) return std::nullopt;
+  return frames.full->frame.min / frames.sparse.frame.min;
+}
+
+std::optional<double> device_full_speed(const DeviceFrames& frames) {
+  if (!frames.full) return std::nullopt;
+  return 1 / frames.full->frame.min;
+}
+
+double device_sparse_speed(const DeviceFrames& frames) {
+  return 1 / frames.sparse.frame.min;
+}
 
 /// A table that begins with memory and size.
 ReportTable sized_table(const std::vector<LowRankTableRow>& rows, std::string caption,
@@ -28,11 +65,13 @@ ReportTable sized_table(const std::vector<LowRankTableRow>& rows, std::string ca
 
 /// Tables 1 and 2.
 ReportTable speedup_table(const LowRankTables& tables, const std::string& caption, const std::string& command,
-                          const FrameNumber& speedup, std::span<const PublishedRatios> published) {
-  ReportTable table =
-      sized_table(tables.rows, caption, command,
-                  {"1 thread", fmt::format("{} threads", tables.threads), "RGB", "document: CPU", "GPU",
-                   "document: GPU", "document: sparse CPU/sparse GPU", "document: full CPU/sparse GPU"});
+                          const FrameNumber& speedup, const DeviceColumns& device,
+                          std::optional<double> (*device_speedup)(const DeviceFrames&),
+                          std::span<const PublishedRatios> published) {
+  ReportTable table = sized_table(
+      tables.rows, caption, command,
+      {"1 thread", fmt::format("{} threads", tables.threads), "RGB", "document: CPU", device.name(),
+       "document: GPU", "document: sparse CPU/sparse GPU", "document: full CPU/sparse GPU"});
   for (std::size_t i = 0; i < tables.rows.size(); ++i) {
     const LowRankTableRow& row = tables.rows[i];
     const PublishedRatios* printed = published_row(published, row.size);
@@ -43,9 +82,9 @@ ReportTable speedup_table(const LowRankTables& tables, const std::string& captio
     line.insert(
         line.end(),
         {frame_cell(row, 1, 1, speedup), frame_cell(row, tables.threads, 1, speedup),
-         frame_cell(row, tables.threads, 3, speedup), ratio(&PublishedRatios::full_to_sparse_cpu), not_yet,
-         ratio(&PublishedRatios::full_to_sparse_gpu), ratio(&PublishedRatios::sparse_cpu_to_sparse_gpu),
-         ratio(&PublishedRatios::full_cpu_to_sparse_gpu)});
+         frame_cell(row, tables.threads, 3, speedup), ratio(&PublishedRatios::full_to_sparse_cpu),
+         device.cell(row.size, device_speedup), ratio(&PublishedRatios::full_to_sparse_gpu),
+         ratio(&PublishedRatios::sparse_cpu_to_sparse_gpu), ratio(&PublishedRatios::full_cpu_to_sparse_gpu)});
   }
   return table;
 }
@@ -72,7 +111,7 @@ std::vector<std::string> published_speeds(const PublishedSpeeds* printed) {
   return cells;
 }
 
-ReportTable table_3(const LowRankTables& tables, const std::string& command) {
+ReportTable table_3(const LowRankTables& tables, const DeviceColumns& device, const std::string& command) {
   const std::string all = fmt::format("{} threads", tables.threads);
   ReportTable table =
       sized_table(tables.rows,
@@ -80,8 +119,8 @@ ReportTable table_3(const LowRankTables& tables, const std::string& command) {
                   "columns with sparse V and all threads.",
                   command,
                   {"full, 1 thread", "sparse, 1 thread", "full, " + all, "sparse, " + all, "sparse, median",
-                   "RGB", "GPU full", "GPU sparse", "document: CPU full", "document: CPU sparse",
-                   "document: GPU full", "document: GPU sparse"});
+                   "RGB", device.name("full"), device.name("sparse"), "document: CPU full",
+                   "document: CPU sparse", "document: GPU full", "document: GPU sparse"});
   const std::vector<std::pair<FrameNumber, std::pair<int, Index>>> speeds = {
       {full_speed, {1, 1}},
       {sparse_speed, {1, 1}},
@@ -100,7 +139,9 @@ ReportTable table_3(const LowRankTables& tables, const std::string& command) {
     const bool last = i == tables.rows.size();
     const std::vector<std::string> printed = published_speeds(
         last ? &published_average() : published_row(published_table_3(), tables.rows[i].size));
-    table.rows[i].insert(table.rows[i].end(), {not_yet, not_yet});
+    const LowRankSize size = last ? LowRankSize{} : tables.rows[i].size;
+    table.rows[i].insert(table.rows[i].end(),
+                         {device.cell(size, device_full_speed), device.cell(size, device_sparse_speed)});
     table.rows[i].insert(table.rows[i].end(), printed.begin(), printed.end());
   }
   return table;
@@ -113,7 +154,7 @@ std::optional<double> thread_speedup(const LowRankTableRow& row, int threads) {
   return one->sparse_frame.min / all->sparse_frame.min;
 }
 
-ReportTable table_4(const LowRankTables& tables, const std::string& command) {
+ReportTable table_4(const LowRankTables& tables, const DeviceColumns& device, const std::string& command) {
   constexpr std::size_t largest = 3;
   const std::vector<LowRankTableRow> rows(
       tables.rows.end() - static_cast<std::ptrdiff_t>(std::min(largest, tables.rows.size())),
@@ -123,13 +164,14 @@ ReportTable table_4(const LowRankTables& tables, const std::string& command) {
       "Table 4: frames a second with sparse V on a second machine, and over Table 3's. Ours: all threads of "
       "this machine, and over one thread of it.",
       command,
-      {fmt::format("{} threads", tables.threads), "over 1 thread", "GPU", "document: CPU", "speed-up",
+      {fmt::format("{} threads", tables.threads), "over 1 thread", device.name(), "document: CPU", "speed-up",
        "document: GPU", "speed-up"});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const PublishedSecondMachine* printed = published_row(published_table_4(), rows[i].size);
     std::vector<std::string>& line = table.rows[i];
     line.insert(line.end(), {frame_cell(rows[i], tables.threads, 1, sparse_speed),
-                             table_number(thread_speedup(rows[i], tables.threads)), not_yet});
+                             table_number(thread_speedup(rows[i], tables.threads)),
+                             device.cell(rows[i].size, device_sparse_speed)});
     const auto cell = [&](auto member) {
       return printed != nullptr ? table_number(printed->*member) : table_number({});
     };
@@ -151,11 +193,11 @@ void append_build(const LowRankTableRow& row, std::vector<std::string>& line) {
                            seconds(row.fold_seconds)});
 }
 
-ReportTable table_5(const LowRankTables& tables, const std::string& command) {
+ReportTable table_5(const LowRankTables& tables, const DeviceColumns& device, const std::string& command) {
   ReportTable table =
       sized_table(tables.large_rows, "Table 5: frames a second of large scenes, sparse V.", command,
-                  {"1 thread", fmt::format("{} threads", tables.threads), "RGB", "GPU", "document: CPU",
-                   "document: GPU"});
+                  {"1 thread", fmt::format("{} threads", tables.threads), "RGB", device.name(),
+                   "document: CPU", "document: GPU"});
   table.columns.insert(table.columns.end(), build_columns.begin(), build_columns.end());
   for (std::size_t i = 0; i < tables.large_rows.size(); ++i) {
     const LowRankTableRow& row = tables.large_rows[i];
@@ -163,7 +205,7 @@ ReportTable table_5(const LowRankTables& tables, const std::string& command) {
     std::vector<std::string>& line = table.rows[i];
     line.insert(line.end(),
                 {frame_cell(row, 1, 1, sparse_speed), frame_cell(row, tables.threads, 1, sparse_speed),
-                 frame_cell(row, tables.threads, 3, sparse_speed), not_yet,
+                 frame_cell(row, tables.threads, 3, sparse_speed), device.cell(row.size, device_sparse_speed),
                  table_number(printed != nullptr ? std::optional(printed->cpu) : std::nullopt),
                  table_number(printed != nullptr ? std::optional(printed->gpu) : std::nullopt)});
     append_build(row, line);
@@ -218,7 +260,14 @@ ReportTable dense_error_table(const LowRankTables& tables, const LowRankTablesOp
   return table;
 }
 
-std::string method_text(const LowRankTables& tables) {
+std::string device_sentence(const DeviceResults* device) {
+  if (device == nullptr)
+    return "Columns called GPU are filled by radiosity bench --device gl --json FILE and --device-results "
+           "FILE.";
+  return device_text(*device).text + " E and B stay there; transfers are in a table below.";
+}
+
+std::string method_text(const LowRankTables& tables, const DeviceResults* device) {
   return fmt::format(
       "Document 004's Algorithm 2 on a cube of equal elements and uniform patches, n and k its own: X = VᵀE, "
       "then "
@@ -229,10 +278,11 @@ std::string method_text(const LowRankTables& tables) {
       "Times are the fastest of turns that all products take side by side (medians in low_rank_tables.json); "
       "E is "
       "sorted by patch. Sizes of one group take the same memory. 442368, 1769472, 432 and 1728 are 12 m², of "
-      "squares cut in two. Columns called GPU wait for the OpenGL backend. Machine load {:.1f} to {:.1f}; at "
+      "squares cut in two. {} Machine load {:.1f} to {:.1f}; at "
       "most "
       "{:.2f} GB were resident.",
-      tables.threads, tables.load_before, tables.load_after, 1e-9 * tables.resident_bytes);
+      tables.threads, device_sentence(device), tables.load_before, tables.load_after,
+      1e-9 * tables.resident_bytes);
 }
 
 /// What n = k, where 2MSC approximates nothing, gives; empty if there is no such size.
@@ -252,15 +302,18 @@ std::string equality_text(const LowRankTables& tables) {
 ReportSection low_rank_tables_section(const LowRankTables& tables, const LowRankTablesOptions& options,
                                       const std::string& command) {
   ReportSection section{"Low-rank radiosity with sparse matrices: Tables 1 to 5 of document 004", {}};
-  section.blocks.emplace_back(ReportText{method_text(tables)});
-  section.blocks.emplace_back(speedup_table(tables,
-                                            "Table 1: time of VᵀE with full V over that with sparse V.",
-                                            command, sums_speedup, published_table_1()));
+  section.blocks.emplace_back(ReportText{method_text(tables, options.device.get())});
+  const DeviceColumns device(options.device.get());
+  section.blocks.emplace_back(
+      speedup_table(tables, "Table 1: time of VᵀE with full V over that with sparse V.", command,
+                    sums_speedup, device, device_sums_speedup, published_table_1()));
   section.blocks.emplace_back(speedup_table(tables, "Table 2: time of B with full V over that with sparse V.",
-                                            command, frame_speedup, published_table_2()));
-  section.blocks.emplace_back(table_3(tables, command));
-  section.blocks.emplace_back(table_4(tables, command));
-  section.blocks.emplace_back(table_5(tables, command));
+                                            command, frame_speedup, device, device_frame_speedup,
+                                            published_table_2()));
+  section.blocks.emplace_back(table_3(tables, device, command));
+  section.blocks.emplace_back(table_4(tables, device, command));
+  section.blocks.emplace_back(table_5(tables, device, command));
+  if (options.device) section.blocks.emplace_back(device_frames_table(*options.device, command));
   std::vector<LowRankTableRow> all = tables.rows;
   std::copy(tables.large_rows.begin(), tables.large_rows.end(), std::back_inserter(all));
   section.blocks.emplace_back(bandwidth_table(tables, all, command));

@@ -1,11 +1,34 @@
 // Y = M X for one matrix a channel in BC1 blocks of 4 x 4 texels, which are decoded here: the indices of a block serve
 // all channels. LANES of the INVOCATIONS of a work group walk along a row of blocks side by side.
 #include "groups.glsl"
+#include "wide_loads.glsl"
 
 layout(local_size_x = INVOCATIONS) in;
 
-layout(std430, binding = 0) readonly buffer Blocks { uvec2 blocks[]; };  // two colours, then the indices
-layout(std430, binding = 1) readonly buffer X { vec4 x[]; };             // by columns, each of block_columns
+// Blocks: two colours, then the indices. X: by columns, each of block_columns.
+#if LANES > 1
+layout(std430, binding = 0) readonly buffer Blocks { uvec2 blocks[]; };
+layout(std430, binding = 1) readonly buffer X { vec4 x[]; };
+
+uvec2 block_at(uint place) {
+  return blocks[place];
+}
+
+vec4 four_of_x(uint place) {
+  return x[place];
+}
+#else
+layout(std430, binding = 0) readonly buffer Blocks { double blocks[]; };
+layout(std430, binding = 1) readonly buffer X { dvec2 x[]; };
+
+uvec2 block_at(uint place) {
+  return unpackDouble2x32(blocks[place]);
+}
+
+vec4 four_of_x(uint place) {
+  return four_floats(x[place]);
+}
+#endif
 layout(std430, binding = 2) writeonly buffer Y { float y[]; };
 layout(std430, binding = 3) readonly buffer Tables { float tables[]; };  // 64 numbers a colour channel, then scales
 
@@ -52,7 +75,7 @@ void main() {
   for (uint c = 0; c < CHANNELS; ++c) sum[c] = vec4(0);
   uint end = present ? block_columns : 0;
   for (uint b = lane; b < end; b += LANES) {
-    uvec2 block = blocks[block_row * block_columns + b];
+    uvec2 block = block_at(block_row * block_columns + b);
     bvec4 low[4];
     bvec4 high[4];
     for (uint r = 0; r < 4; ++r) {
@@ -62,7 +85,7 @@ void main() {
     }
     for (uint c = 0; c < CHANNELS; ++c) {
       vec4 number = palette(block.x, c);
-      vec4 part = x[(first_column + c) * block_columns + b];
+      vec4 part = four_of_x((first_column + c) * block_columns + b);
       for (uint r = 0; r < 4; ++r)
         sum[c][r] += dot(part, mix(mix(number.xxxx, number.yyyy, low[r]), mix(number.zzzz, number.wwww, low[r]), high[r]));
     }

@@ -67,12 +67,16 @@ TEST_F(Device, SolvesAsTheCpuDoes) {
   const std::vector<std::string> command = {
       "solve", "cornell-box-closed", "--patches", "150", "--quiet", "-o", "B.npy", "--json", "B.json"};
   ASSERT_EQ(run(command).exit_code, 0);
+  EXPECT_TRUE(json("B.json")["device_seconds"].is_null());
   const Eigen::MatrixXd on_cpu = read_npy(folder_.path() / "B.npy");
   std::vector<std::string> on_device = command;
   on_device.insert(on_device.end(), {"--device", "gl"});
   ASSERT_EQ(run(on_device).exit_code, 0);
   EXPECT_EQ(json("B.json")["device"], "gl");
   EXPECT_EQ(json("B.json")["operator"], "dense:f32");
+  EXPECT_EQ(json("B.json")["solver"], "cg:fields=device");
+  EXPECT_GT(json("B.json")["upload_seconds"], 0);
+  EXPECT_GT(json("B.json")["device_seconds"], 0);
   EXPECT_LE((read_npy(folder_.path() / "B.npy") - on_cpu).norm(), 5e-6 * on_cpu.norm());
 }
 

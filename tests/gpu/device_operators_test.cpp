@@ -169,6 +169,29 @@ TEST(CompareProducts, RefusesACopyThatComputesSomethingElse) {
   }
 }
 
+TEST_F(LimitedDevice, RefusesTwoPlacesForWhatHasNotTwoFactors) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  for (const char* spec : {"svd:k=8,norm=area,method=lanczos,placement=hybrid", "dense:f32,placement=hybrid"})
+    EXPECT_THROW(registry.make(spec, random_room(70)), UsageError) << spec;
+}
+
+/// Four columns are on the device at a time; the CPU has the next.
+TEST_F(LimitedDevice, MultipliesMoreColumnsThanTwoPlacesPassOnAtATime) {
+  const FormFactors form_factors = random_room(70);
+  const Field X = Field::Random(70, 10);
+  for (const char* spec : {"svd:k=8", "sparse-v:k=8"}) {
+    const auto whole = cpu_operators().make(spec, form_factors);
+    const auto hybrid =
+        gl_operators(device(), cpu_operators()).make(with_keys(spec, "placement=hybrid"), form_factors);
+    Field Y(70, 10);
+    Field Z(70, 10);
+    whole->apply(X, Y);
+    hybrid->apply(X, Z);
+    EXPECT_LE((Y - Z).norm(), 1e-6 * Y.norm()) << spec;
+    EXPECT_GT(hybrid->device_use()->device_seconds, 0);
+  }
+}
+
 std::string spec_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   for (char& c : name)
@@ -219,8 +242,11 @@ INSTANTIATE_TEST_SUITE_P(Stored, DeviceOperators,
                          spec_name);
 
 INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
-                         testing::Values("svd:k=8", "svd:k=8,norm=area,method=lanczos", "2msc:k=8",
-                                         "sparse-v:k=8"),
+                         testing::Values("svd:k=8,strategy=group", "svd:k=9,strategy=invocation",
+                                         "svd:k=19,norm=area,method=lanczos,strategy=invocation", "2msc:k=8",
+                                         "sparse-v:k=8,strategy=group", "sparse-v:k=7,strategy=invocation",
+                                         "svd:k=8,strategy=group,placement=hybrid",
+                                         "sparse-v:k=7,strategy=invocation,placement=hybrid"),
                          spec_name);
 INSTANTIATE_TEST_SUITE_P(Bounces, DeviceCopies,
                          testing::Values("bounces:k=3,storage=f32", "bounces:k=2,storage=f16"), spec_name);

@@ -13,7 +13,7 @@ namespace radiosity {
 
 /// Tests that need OpenGL, in a context that reports everything that is wrong. They are skipped where there
 /// is none, which ./check counts as a failure with CI=true.
-class DeviceTest : public testing::Test {
+class DeviceTest : public ::testing::Test {
  protected:
   void SetUp() override {
     try {

@@ -12,7 +12,8 @@ inline std::vector<ShaderVariant> shader_variants() {
   for (const int half : {0, 1}) {
     variants.push_back(
         {"dense_group.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 4}, {"INVOCATIONS", 128}}});
-    variants.push_back({"dense_invocation.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 64}}});
+    variants.push_back(
+        {"dense_invocation.comp", {{"COLUMNS", 4}, {"HALF", half}, {"INVOCATIONS", 16}, {"SHARE", 4}}});
   }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
@@ -26,11 +27,20 @@ inline std::vector<ShaderVariant> shader_variants() {
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
+  variants.push_back({"tall_transposed_wide.comp", {{"COLUMNS", 4}, {"SHARE", 2}}});
+  variants.push_back({"tall_product_wide.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
   for (const int present : {0, 1}) {
     variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
     variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
     variants.push_back({"segment_sums.comp", {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}}});
   }
+  variants.push_back({"frame_sum.comp", {}});
+  variants.push_back({"neumann_step.comp", {{"SUMS", 1}}});
+  variants.push_back({"cg_image.comp", {{"SUMS", 1}}});
+  variants.push_back({"cg_update.comp", {{"SUMS", 2}}});
+  variants.push_back({"cg_direction.comp", {{"SUMS", 0}}});
+  for (const int stage : {0, 1, 2})
+    variants.push_back({"column_scalars.comp", {{"SUMS", stage == 2 ? 2 : 1}, {"STAGE", stage}}});
   return variants;
 }
 

@@ -16,7 +16,7 @@ double largest_error(const Field& B, double reflectance) {
 }
 
 double allowed_error(Index n, double reflectance) {
-  return 30 * unit_roundoff * static_cast<double>(n) / (1 - reflectance);
+  return 30 * double_roundoff * static_cast<double>(n) / (1 - reflectance);
 }
 
 TEST(Furnace, EverySolverGivesEmissionOverAbsorption) {
@@ -26,7 +26,7 @@ TEST(Furnace, EverySolverGivesEmissionOverAbsorption) {
       const Field E = Field::Constant(room.size(), 1, 2.5);
       for (const std::string spec : {"cg", "gmres", "neumann", "gauss-seidel", "lu"}) {
         // The residual that leaves an error of the allowed size; lower ones are below rounding at 0.99.
-        const double tolerance = 10 * unit_roundoff * static_cast<double>(room.size());
+        const double tolerance = 10 * double_roundoff * static_cast<double>(room.size());
         const auto solver = cpu_solvers().make(spec, {transport, room.root_area(), {.tolerance = tolerance}});
         EXPECT_LE(largest_error(solve(*solver, E), reflectance), allowed_error(room.size(), reflectance))
             << spec << " at reflectance " << reflectance;

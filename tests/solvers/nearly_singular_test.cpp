@@ -20,7 +20,7 @@ const std::vector<double> distances_to_one = {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8
 double backward_error(const Room& room, const Field& B, const Field& E) {
   const Field residual = E - B + room.transport(0) * B;
   const Eigen::RowVectorXd norms = area_norms(room.root_area(), residual);
-  return norms.cwiseQuotient(area_norms(room.root_area(), B)).maxCoeff() / unit_roundoff;
+  return norms.cwiseQuotient(area_norms(room.root_area(), B)).maxCoeff() / double_roundoff;
 }
 
 /// Runs until the solver converges or says that rounding lets it go no further; returns B.

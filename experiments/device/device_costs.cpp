@@ -1,0 +1,77 @@
+#include "experiments/device/device_costs.hpp"
+
+#include "experiments/device/repeated_timing.hpp"
+#include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
+#include "experiments/low_rank_radiosity/solved_factors.hpp"
+#include "experiments/synthetic_form_factors.hpp"
+#include "foundation/stopwatch.hpp"
+#include "gpu/low_rank_on_device.hpp"
+#include "gpu/upload.hpp"
+
+#include <functional>
+
+namespace radiosity {
+namespace {
+
+// Of the ratio on a software renderer.
+constexpr double dense_limit = 10;
+constexpr double factors_limit = 15;
+constexpr double blocks_limit = 3;
+
+/// Processor seconds of all threads in the cheapest run.
+double cheapest(double seconds, const std::function<void()>& work) {
+  return time_repeatedly(seconds,
+                         [&] {
+                           const Stopwatch watch;
+                           work();
+                           return watch.cpu_seconds();
+                         })
+      .min;
+}
+
+ProductCost cost_of_operator(const std::shared_ptr<GlDevice>& device, const LinearOperator& on_cpu,
+                             Index columns, double limit, double seconds) {
+  const auto copy = upload(device, on_cpu);
+  const Field X = Field::Ones(on_cpu.size(), columns);
+  Field Y(on_cpu.size(), columns);
+  return {on_cpu.describe(), columns, cheapest(seconds, [&] { on_cpu.apply(X, Y); }),
+          cheapest(seconds, [&] { copy->apply(X, Y); }), limit};
+}
+
+ProductCost cost_of_factors(const std::shared_ptr<GlDevice>& device, const ProductCostOptions& options,
+                            Index columns) {
+  const SolvedFactors factors = random_factors(options.factors, options.seed);
+  const TallMatrix<float> V = full_matrix(factors.V);
+  const LowRankOnDevice copy(device, factors.Y, V, device->preferred_strategy());
+  const Field E = Field::Ones(options.factors.rows, columns);
+  Field X(options.factors.rank, columns);
+  Field Y(options.factors.rows, columns);
+  const double on_cpu = cheapest(options.seconds, [&] {
+    multiply_transposed(V, E, X);
+    multiply(factors.Y, X, Y);
+  });
+  return {fmt::format("low-rank:n={},k={}", options.factors.rows, options.factors.rank), columns, on_cpu,
+          cheapest(options.seconds, [&] { copy.multiply(E, Y); }), factors_limit};
+}
+
+}  // namespace
+
+std::vector<ProductCost> measure_product_costs(const std::shared_ptr<GlDevice>& device,
+                                               const ProductCostOptions& options,
+                                               const OperatorRegistry& cpu) {
+  std::vector<ProductCost> costs;
+  const FormFactors grey = synthetic_form_factors(options.patches);
+  for (const char* spec : {"dense:f32", "dense:f16"}) {
+    const auto on_cpu = cpu.make(spec, grey);
+    for (const Index columns : {1, 3})
+      costs.push_back(cost_of_operator(device, *on_cpu, columns, dense_limit, options.seconds));
+  }
+  for (const Index columns : {1, 3}) costs.push_back(cost_of_factors(device, options, columns));
+  for (const Index channels : {1, 3}) {
+    const auto on_cpu = cpu.make("dxt:reorder=none", synthetic_form_factors(options.patches, channels));
+    costs.push_back(cost_of_operator(device, *on_cpu, channels, blocks_limit, options.seconds));
+  }
+  return costs;
+}
+
+}  // namespace radiosity
