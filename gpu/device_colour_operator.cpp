@@ -24,6 +24,15 @@ void DeviceColourOperator::apply_impl(double alpha, const ConstFieldRef& X, doub
   add_answer(alpha, X, reflected, beta, Y);
 }
 
+ResidentProduct DeviceColourOperator::resident_diagonals() const {
+  ResidentProduct product;
+  product.before = inverse_colours_;
+  product.after = Eigen::MatrixXd::Ones(size(), channels());
+  product.reflectance = reflectance_;
+  product.global = global_;
+  return product;
+}
+
 DeviceBouncesOperator::DeviceBouncesOperator(const ColourOperator& original, Matrices sums,
                                              DeviceOrigin origin)
     : DeviceColourOperator(original, std::move(sums), std::move(origin)),
@@ -33,6 +42,16 @@ void DeviceBouncesOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y)
   Y = reflectances_.multiply_each(X, size(), [&](Index distinct, const Field& fields, FieldRef images) {
     matrix(distinct).multiply(fields, images);
   });
+}
+
+ResidentProduct DeviceBouncesOperator::resident_product() const {
+  ResidentProduct product = resident_diagonals();
+  for (Index distinct = 0; distinct < reflectances_.count(); ++distinct) {
+    product.parts.push_back({&matrix(distinct), {}});
+    for (Index channel = 0; channel < channels(); ++channel)
+      if (reflectances_.of_channel(channel) == distinct) product.parts.back().channels.push_back(channel);
+  }
+  return product;
 }
 
 namespace {
@@ -56,6 +75,13 @@ void DeviceTextureOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y)
   Field product(X.rows(), X.cols());
   matrix().multiply(sorted, product);
   Y(order_, Eigen::all) = product;
+}
+
+ResidentProduct DeviceTextureOperator::resident_product() const {
+  ResidentProduct product = resident_diagonals();
+  product.parts = {{&matrix(), every_channel(channels())}};
+  product.order = order_;
+  return product;
 }
 
 }  // namespace radiosity

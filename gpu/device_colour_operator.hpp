@@ -31,6 +31,9 @@ class DeviceColourOperator : public LinearOperator, public OnDevice {
 
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
 
+  /// Without parts and order.
+  ResidentProduct resident_diagonals() const;
+
  private:
   Eigen::MatrixXd reflectance_;
   Eigen::ArrayXXd inverse_colours_;  ///< 1 / c, n x channels
@@ -41,6 +44,8 @@ class DeviceColourOperator : public LinearOperator, public OnDevice {
 class DeviceBouncesOperator final : public DeviceColourOperator {
  public:
   DeviceBouncesOperator(const ColourOperator& original, Matrices sums, DeviceOrigin origin);
+
+  ResidentProduct resident_product() const override;
 
  protected:
   void multiply_colours(const ConstFieldRef& X, FieldRef Y) const override;
@@ -55,6 +60,8 @@ class DeviceTextureOperator final : public DeviceColourOperator {
   /// order[p]: the patch at place p.
   DeviceTextureOperator(const ColourOperator& original, std::unique_ptr<DeviceMatrix> texture,
                         std::vector<Index> order, DeviceOrigin origin);
+
+  ResidentProduct resident_product() const override;
 
  protected:
   void multiply_colours(const ConstFieldRef& X, FieldRef Y) const override;

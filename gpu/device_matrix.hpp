@@ -22,6 +22,12 @@ class DeviceMatrix {
   /// the order of sums and the scaling of X, which is one a column. Y is written, never read.
   void multiply(const ConstFieldRef& X, FieldRef Y) const;
 
+  /// Has the device compute Y = M X / scale() of `columns` columns that are there already, X and Y bound and
+  /// padded as FieldBuffers says. Not timed; a memory barrier comes before Y is read. The context is current.
+  void multiply_resident(Index columns) const { dispatch(columns); }
+  /// M is this times the stored numbers.
+  virtual double scale() const = 0;
+
   /// What it takes of the device's memory, by part.
   virtual ByteCount bytes() const = 0;
 
@@ -42,8 +48,6 @@ class DeviceMatrix {
 
   /// Has the device compute Y of `columns` columns from X, both bound as FieldBuffers says.
   virtual void dispatch(Index columns) const = 0;
-  /// M is this times the stored numbers.
-  virtual double scale() const = 0;
 
  private:
   std::shared_ptr<GlDevice> device_;

@@ -29,9 +29,26 @@ DeviceKernelOperator::DeviceKernelOperator(const KernelOperator& original,
     : KernelOperator(original.root_area(), original.reflectance()),
       OnDevice(std::move(matrix), std::move(origin)) {}
 
+ResidentProduct DeviceKernelOperator::resident_product() const {
+  ResidentProduct product;
+  product.parts = {{&matrix(), every_channel(channels())}};
+  product.before = root_area().replicate(1, channels());
+  product.after = product.before.cwiseInverse();
+  product.reflectance = reflectance();
+  return product;
+}
+
 DeviceMatrixOperator::DeviceMatrixOperator(const MatrixOperator& original,
                                            std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
     : OnDevice(std::move(matrix), std::move(origin)), reflectance_(original.reflectance()) {}
+
+ResidentProduct DeviceMatrixOperator::resident_product() const {
+  ResidentProduct product;
+  product.parts = {{&matrix(), every_channel(channels())}};
+  product.before = product.after = Eigen::MatrixXd::Ones(size(), channels());
+  product.reflectance = reflectance_;
+  return product;
+}
 
 void DeviceMatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {
   Field product(X.rows(), X.cols());

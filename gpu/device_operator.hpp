@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/device_matrix.hpp"
+#include "gpu/resident_product.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -25,6 +26,8 @@ class OnDevice {
   virtual ~OnDevice() = default;
   /// Found when it is compared with the CPU's (DeviceUse::difference_max).
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
+  /// Its parts, for whoever multiplies fields that are on the device already; they live as long as it does.
+  virtual ResidentProduct resident_product() const = 0;
 
  protected:
   using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
@@ -58,6 +61,7 @@ class DeviceKernelOperator : public KernelOperator, public OnDevice {
   double product_roundoff() const override { return 0x1p-24; }
   Certificate certificate() const override { return origin().certificate; }
   std::optional<DeviceUse> device_use() const override { return use(); }
+  ResidentProduct resident_product() const override;
 
  protected:
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { matrix().multiply(X, Y); }
@@ -79,6 +83,7 @@ class DeviceMatrixOperator : public LinearOperator, public OnDevice {
   double product_roundoff() const override { return 0x1p-24; }
   Certificate certificate() const override { return origin().certificate; }
   std::optional<DeviceUse> device_use() const override { return use(); }
+  ResidentProduct resident_product() const override;
 
  protected:
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
