@@ -18,20 +18,33 @@ Color colour_of(const Eigen::MatrixXd& field, Index patch) {
   return field.cols() == 3 ? Color(field.row(patch).transpose().array()) : Color::Constant(field(patch, 0));
 }
 
+/// Of a pixel, W/(m^2 sr).
+struct TracedPixel {
+  Color radiance = Color::Zero();
+  Color standard_error = Color::Zero();
+};
+
 class FrameTracer {
  public:
   FrameTracer(const PatchMesh& mesh, const std::vector<FrameLight>& lights)
       : mesh_(mesh), lights_(lights), rays_(mesh) {}
 
-  /// W/(m^2 sr), from `samples` paths.
-  Color radiance(const Vector3& origin, const Vector3& direction, int samples, RandomStream& random) const {
+  /// From `samples` paths.
+  TracedPixel radiance(const Vector3& origin, const Vector3& direction, int samples,
+                       RandomStream& random) const {
     const PatchHit hit = rays_.first_front(origin, direction);
-    if (hit.missed()) return Color::Zero();
-    Color indirect = Color::Zero();
-    for (int sample = 0; sample < samples; ++sample) indirect += gathered(hit, random);
-    const Color received = direct(hit) + indirect / samples;
-    return (colour_of(mesh_.emission, hit.patch) + colour_of(mesh_.reflectance, hit.patch) * received) /
-           std::numbers::pi;
+    if (hit.missed()) return {};
+    Color sum = Color::Zero();
+    Color squares = Color::Zero();
+    for (int sample = 0; sample < samples; ++sample) {
+      const Color indirect = gathered(hit, random);
+      sum += indirect;
+      squares += indirect.square();
+    }
+    const Color reflected = colour_of(mesh_.reflectance, hit.patch) / std::numbers::pi;
+    const Color own = colour_of(mesh_.emission, hit.patch) / std::numbers::pi;
+    const Color variance = (squares - sum.square() / samples).max(0) / std::max(samples - 1, 1) / samples;
+    return {own + reflected * (direct(hit) + sum / samples), reflected * variance.sqrt()};
   }
 
  private:
@@ -88,26 +101,30 @@ void check(const PatchMesh& mesh, const TracedFrameOptions& options) {
 
 }  // namespace
 
-Picture trace_frame(const PatchMesh& mesh, const std::vector<FrameLight>& lights, const Camera& camera,
-                    const TracedFrameOptions& options, Monitor& monitor) {
+TracedFrame trace_frame(const PatchMesh& mesh, const std::vector<FrameLight>& lights, const Camera& camera,
+                        const TracedFrameOptions& options, Monitor& monitor) {
   check(mesh, options);
   const CameraRays camera_rays(camera, options.width, options.height);
   const FrameTracer tracer(mesh, lights);
   const auto width = static_cast<std::size_t>(options.width);
-  Picture picture{options.width, options.height, {}};
-  picture.pixels.resize(3 * width * static_cast<std::size_t>(options.height));
+  Picture black{options.width, options.height, {}};
+  black.pixels.resize(3 * width * static_cast<std::size_t>(options.height));
+  TracedFrame frame{black, black};
   std::atomic<int> done{0};
   parallel_for(static_cast<std::size_t>(options.height), [&](std::size_t row) {
     const auto y = static_cast<int>(row);
     for (int x = 0; x < options.width; ++x) {
       RandomStream random(options.seed, row * width + static_cast<std::size_t>(x));
-      const Color radiance = tracer.radiance(camera_rays.origin(), camera_rays.direction(x + 0.5, y + 0.5),
-                                             options.samples, random);
-      for (int c = 0; c < 3; ++c) picture.pixel(x, y)[c] = static_cast<float>(radiance[c]);
+      const TracedPixel found = tracer.radiance(camera_rays.origin(), camera_rays.direction(x + 0.5, y + 0.5),
+                                                options.samples, random);
+      for (int c = 0; c < 3; ++c) {
+        frame.picture.pixel(x, y)[c] = static_cast<float>(found.radiance[c]);
+        frame.standard_error.pixel(x, y)[c] = static_cast<float>(found.standard_error[c]);
+      }
     }
     monitor.checkpoint("path tracing", static_cast<double>(++done) / options.height);
   });
-  return picture;
+  return frame;
 }
 
 }  // namespace radiosity

@@ -8,31 +8,25 @@
 namespace radiosity {
 
 // Every OpenGL function that gpu/ and frame/ call (a test compares).
-#define RADIOSITY_GL_FUNCTIONS(X)                                                                            \
-  X(glActiveTexture)                                                                                         \
-  X(glAttachShader) X(glBeginQuery) X(glBindBuffer) X(glBindBufferBase) X(glBindBufferRange)                 \
-      X(glBindFramebuffer) X(glBindRenderbuffer) X(glBindTexture) X(glBindVertexArray) X(glBufferData)       \
-          X(glBufferSubData) X(glClear) X(glClearColor) X(glClientWaitSync) X(glCompileShader)               \
-              X(glCreateProgram) X(glCreateShader) X(glDebugMessageCallback) X(glDeleteBuffers) X(           \
-                  glDeleteFramebuffers) X(glDeleteProgram) X(glDeleteQueries) X(glDeleteRenderbuffers)       \
-                  X(glDeleteShader) X(glDeleteSync) X(glDeleteTextures) X(glDeleteVertexArrays) X(glDisable) \
-                      X(glDispatchCompute) X(glDrawArrays) X(glDrawBuffer) X(glDrawElements) X(glEnable)     \
-                          X(glEnableVertexAttribArray) X(glEndQuery) X(glFenceSync) X(glFinish) X(glFlush)   \
-                              X(glFramebufferRenderbuffer) X(glFramebufferTexture) X(glGenBuffers) X(        \
-                                  glGenFramebuffers) X(glGenQueries) X(glGenRenderbuffers) X(glGenTextures)  \
-                                  X(glGenVertexArrays) X(glGetBufferSubData) X(glGetError)                   \
-                                      X(glGetInteger64v) X(glGetIntegeri_v) X(glGetIntegerv)                 \
-                                          X(glGetProgramInfoLog) X(glGetProgramiv) X(glGetQueryObjectui64v)  \
-                                              X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString)          \
-                                                  X(glGetUniformLocation) X(glLinkProgram)                   \
-                                                      X(glMapBufferRange) X(glMemoryBarrier)                 \
-                                                          X(glPixelStorei) X(glQueryCounter) X(glReadPixels) \
-                                                              X(glRenderbufferStorage) X(glShaderSource)     \
-                                                                  X(glTexParameteri) X(glTexStorage3D)       \
-                                                                      X(glUniform1ui) X(glUnmapBuffer)       \
-                                                                          X(glUseProgram)                    \
-                                                                              X(glVertexAttribPointer)       \
-                                                                                  X(glViewport)
+// clang-format off
+#define RADIOSITY_GL_FUNCTIONS(X) \
+  X(glActiveTexture) X(glAttachShader) X(glBeginQuery) X(glBindBuffer) X(glBindBufferBase) \
+  X(glBindBufferRange) X(glBindFramebuffer) X(glBindRenderbuffer) X(glBindTexture) X(glBindVertexArray) \
+  X(glBufferData) X(glBufferSubData) X(glClear) X(glClearColor) X(glClientWaitSync) X(glCompileShader) \
+  X(glCreateProgram) X(glCreateShader) X(glDebugMessageCallback) X(glDeleteBuffers) \
+  X(glDeleteFramebuffers) X(glDeleteProgram) X(glDeleteQueries) X(glDeleteRenderbuffers) \
+  X(glDeleteShader) X(glDeleteSync) X(glDeleteTextures) X(glDeleteVertexArrays) X(glDisable) \
+  X(glDispatchCompute) X(glDrawArrays) X(glDrawBuffer) X(glDrawElements) X(glEnable) \
+  X(glEnableVertexAttribArray) X(glEndQuery) X(glFenceSync) X(glFinish) X(glFlush) \
+  X(glFramebufferRenderbuffer) X(glFramebufferTexture) X(glGenBuffers) X(glGenFramebuffers) \
+  X(glGenQueries) X(glGenRenderbuffers) X(glGenTextures) X(glGenVertexArrays) X(glGetBufferSubData) \
+  X(glGetError) X(glGetInteger64v) X(glGetIntegeri_v) X(glGetIntegerv) X(glGetProgramInfoLog) \
+  X(glGetProgramiv) X(glGetQueryObjectui64v) X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) \
+  X(glGetUniformLocation) X(glLinkProgram) X(glMapBufferRange) X(glMemoryBarrier) X(glPixelStorei) \
+  X(glQueryCounter) X(glReadPixels) X(glRenderbufferStorage) X(glShaderSource) X(glTexParameteri) \
+  X(glTexStorage3D) X(glUniform1ui) X(glUnmapBuffer) X(glUseProgram) X(glVertexAttribPointer) \
+  X(glViewport)
+// clang-format on
 
 /// What stands in the place of an OpenGL function while it is counted.
 template <auto Function>
