@@ -79,6 +79,7 @@ void write_frames_json(const std::filesystem::path& file, const PatchMesh& shown
                     {"device_difference_max", device_difference_json(report.device)},
                     {"operator_upload_seconds", report.device.upload_seconds},
                     {"patches", report.patches},
+                    {"injection", report.options.injection == Injection::cube ? "cube" : "points"},
                     {"points_per_patch", report.points},
                     {"products", report.products},
                     {"light", report.spot ? "spot" : "point"},

@@ -44,6 +44,7 @@ struct RenderOptions {
   std::string operator_spec = "dense:f32";
   std::string path = "orbit";
   std::string light = "point";
+  std::string injection = "points";
   std::string size;
   std::string pattern;
   std::optional<int> frames;
@@ -58,6 +59,13 @@ FrameLightKind kind_of(const RenderOptions& options) {
   if (options.light == "point") return FrameLightKind::point;
   if (options.light == "spot") return FrameLightKind::spot;
   fail<UsageError>("--light {}: there is no such light; the known ones are point and spot", options.light);
+}
+
+Injection injection_of(const RenderOptions& options) {
+  if (options.injection == "points") return Injection::points;
+  if (options.injection == "cube") return Injection::cube;
+  fail<UsageError>("--injection {}: there is no such way; the known ones are points and cube",
+                   options.injection);
 }
 
 /// "1280x720".
@@ -171,6 +179,7 @@ FrameReference compare_last(FrameRenderer& renderer, const RenderOptions& option
 void run_render(RenderOptions options, const Program& cpu_program) {
   const ThreadLimit limit(options.run.threads);
   const FrameLightKind kind = kind_of(options);
+  options.frame.injection = injection_of(options);
   read_size(options.size, options.frame);
   check_operator(options);
   const std::optional<Index> voxels = wanted_voxels(options.simplify);
@@ -260,6 +269,11 @@ void add_render_command(CLI::App& app, const Program& program) {
                    "on each patch, where its direct light is measured; rounded up to a square; default 36")
       ->check(integer_between(1, 4096))
       ->option_text("N");
+  command
+      ->add_option("--injection", options->injection,
+                   "how patches get their direct light: points (default) looks from them into shadow maps, "
+                   "cube draws them around the light, 128 x 128 pixels a face")
+      ->option_text("points|cube");
   command
       ->add_option("--shadow-size", options->frame.shadow_size,
                    "texels of a side of each shadow map; default 1024")

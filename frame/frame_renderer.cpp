@@ -3,6 +3,7 @@
 #include "foundation/error.hpp"
 #include "frame/frame_target.hpp"
 #include "frame/patch_emission.hpp"
+#include "frame/patch_injection.hpp"
 #include "frame/pixel_reads.hpp"
 #include "frame/shadow_maps.hpp"
 #include "frame/shown_surface.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <epoxy/gl.h>
+#include <optional>
 #include <utility>
 
 namespace radiosity {
@@ -47,12 +49,16 @@ struct FrameRenderer::OnDevice {
            const std::vector<FrameLightKind>& lights, const FrameOptions& options, const Vector3& origin)
       : block(device->context(), sizeof(FrameBlock)),
         shadows(device->context(), blockers(*scene.shown, origin), lights, options.shadow_size),
-        patch_emission(device, scene.points, origin),
         resident(device, transport, options.products),
         surface(device, scene.mesh, *scene.shown, origin),
         target(device->context(), options.width, options.height, FrameTarget::Numbers::srgb_bytes),
         reads(device->context(), options.width, options.height, frames_at_once),
-        timers(device->context(), static_cast<int>(frame_stages.size()), frames_at_once) {}
+        timers(device->context(), static_cast<int>(frame_stages.size()), frames_at_once) {
+    if (options.injection == Injection::cube)
+      injection.emplace(device, *scene.solved, lights, origin);
+    else
+      patch_emission.emplace(device, scene.points, origin);
+  }
 
   /// Everything from shadow maps to the picture; calls ended(k) after stage k.
   template <typename StageEnded>
@@ -61,7 +67,10 @@ struct FrameRenderer::OnDevice {
     shadows.render();
     ended(1);
     shadows.bind();
-    patch_emission.compute(resident);
+    if (injection)
+      injection->compute(resident);
+    else
+      patch_emission->compute(resident);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     ended(2);
     resident.run();
@@ -76,7 +85,8 @@ struct FrameRenderer::OnDevice {
 
   GlBuffer block;
   ShadowMaps shadows;
-  PatchEmission patch_emission;
+  std::optional<PatchEmission> patch_emission;  ///< or else:
+  std::optional<PatchInjection> injection;
   ResidentTransport resident;
   ShownSurface surface;
   FrameTarget target;
@@ -120,6 +130,7 @@ void FrameRenderer::draw(const std::vector<FrameLight>& lights, const Camera& ca
   parts_->run(parts_->target, [&](int stage) { timers.end_stage(slot, stage); });
   parts_->reads.start(slot);
   timers.end_stage(slot, static_cast<int>(frame_stages.size()) - 1);
+  parts_->reads.fence(slot);
   device_->context()->check("a frame");
   ++drawn_;
 }

@@ -18,11 +18,18 @@ namespace radiosity {
 constexpr std::array<const char*, 7> frame_stages = {"upload",   "shadow maps", "emission", "transport",
                                                      "transfer", "rendering",   "read-back"};
 
+/// How patches get the light that arrives straight from lights.
+enum class Injection {
+  points,  ///< from points on them and the shadow maps (document 000; PatchEmission)
+  cube     ///< from a picture of them around each light (document 001; PatchInjection)
+};
+
 struct FrameOptions {
   int width = 1280;  ///< pixels
   int height = 720;
   int shadow_size = 1024;  ///< texels of a side of each shadow map
   int products = 8;        ///< with an operator that is not global: bounces after the first reflection
+  Injection injection = Injection::points;
 };
 
 /// A frame that is done.

@@ -4,8 +4,8 @@
 
 namespace radiosity {
 
-FrameScene frame_scene(std::shared_ptr<const PatchMesh> mesh, int strata) {
-  FrameScene scene{std::move(mesh), {}, {}};
+FrameScene frame_scene(const std::shared_ptr<const PatchMesh>& mesh, int strata) {
+  FrameScene scene{mesh, mesh, {}, {}};
   scene.mesh = frame_mesh(*scene.shown);
   scene.points = emission_points(*scene.shown, strata);
   return scene;
@@ -13,7 +13,7 @@ FrameScene frame_scene(std::shared_ptr<const PatchMesh> mesh, int strata) {
 
 FrameScene frame_scene(const SimplifiedScene& simplified, std::shared_ptr<const PatchMesh> original,
                        int strata) {
-  FrameScene scene{std::move(original), {}, {}};
+  FrameScene scene{std::move(original), simplified.mesh, {}, {}};
   scene.mesh = frame_mesh(simplified, *scene.shown);
   scene.points = emission_points(simplified, *scene.shown, strata);
   return scene;

@@ -39,7 +39,10 @@ void PixelReads::start(int frame) {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot].get());
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  fences_[slot] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void PixelReads::fence(int frame) {
+  fences_[static_cast<std::size_t>(frame)] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   glFlush();
 }
 

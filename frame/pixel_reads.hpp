@@ -22,6 +22,8 @@ class PixelReads {
 
   /// Has the device copy what was drawn into the bound framebuffer.
   void start(int frame);
+  /// Marks what has been asked for so far, the copy at least: finish() waits for it.
+  void fence(int frame);
   /// Waits until it has and gives 3 x width x height bytes, rows from the top.
   void finish(int frame, std::vector<std::uint8_t>& bytes);
 

@@ -27,14 +27,13 @@ Eigen::MatrixXd traced_emission(const PatchMesh& mesh, const EmissionPoints& poi
   return points.emission + points.reflectance.cwiseProduct(received);
 }
 
-class FrameEmission : public FrameTest, public testing::WithParamInterface<FrameLightKind> {
- protected:
-  static double mean_difference(const PatchMesh& mesh, const Eigen::MatrixXd& found,
-                                const Eigen::MatrixXd& expected) {
-    return (mesh.area.asDiagonal() * (found - expected).cwiseAbs()).sum() /
-           (mesh.area.asDiagonal() * expected).sum();
-  }
-};
+/// Relative, over area and channels.
+double mean_difference(const PatchMesh& mesh, const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+  return (mesh.area.asDiagonal() * (found - expected).cwiseAbs()).sum() /
+         (mesh.area.asDiagonal() * expected).sum();
+}
+
+class FrameEmission : public FrameTest, public testing::WithParamInterface<FrameLightKind> {};
 
 /// Points within a texel of a shadow's border may come out on its other side: with maps of 512 x 512 texels
 /// that is less than 1 % of the light.
@@ -58,6 +57,41 @@ INSTANTIATE_TEST_SUITE_P(Lights, FrameEmission, testing::Values(FrameLightKind::
                          [](const auto& tested) {
                            return std::string(tested.param == FrameLightKind::point ? "point" : "spot");
                          });
+
+using FrameInjection = FrameTest;
+
+/// In a room that is closed nothing of 1 W is lost: pixels of solid angle have all directions but for 1e-4.
+TEST_F(FrameInjection, ByACubeKeepsThePowerAndIsNearThatOfPoints) {
+  const auto mesh =
+      std::make_shared<const PatchMesh>(make_patches(built_in_scene("cornell-box-closed"), {.patches = 150}));
+  const FrameScene scene = frame_scene(mesh, 6);
+  const auto transport = on_device("dense:f32", form_factors_of(mesh));
+  const FrameOptions options{.width = 32, .height = 24, .shadow_size = 512, .injection = Injection::cube};
+  FrameRenderer renderer(device(), scene, *transport, {FrameLightKind::point}, options);
+  for (const int k : {0, 2, 5}) {
+    const std::vector<FrameLight> lights = light_at(*mesh, k, 7);
+    renderer.draw(lights, camera_of({}, *mesh));
+    renderer.collect();
+    const Eigen::MatrixXd direct = renderer.emission() - mesh->emission;
+    const Eigen::MatrixXd received = direct.cwiseQuotient(mesh->reflectance);
+    EXPECT_NEAR(mesh->area.dot(received.col(0)), 1, 1e-3) << k;
+    const Eigen::MatrixXd traced = traced_emission(*mesh, scene.points, lights) - mesh->emission;
+    EXPECT_LT(mean_difference(*mesh, direct, traced), 0.05) << k;
+  }
+}
+
+TEST_F(FrameInjection, OfASpotIsThatOfPointsToo) {
+  const auto mesh = box(150);
+  const FrameScene scene = frame_scene(mesh, 6);
+  const auto transport = on_device("dense:f32", form_factors_of(mesh));
+  const FrameOptions options{.width = 32, .height = 24, .shadow_size = 64, .injection = Injection::cube};
+  FrameRenderer renderer(device(), scene, *transport, {FrameLightKind::spot, FrameLightKind::point}, options);
+  std::vector<FrameLight> lights = light_at(*mesh, 1, 7, FrameLightKind::spot);
+  lights.push_back(light_at(*mesh, 5, 7).front());
+  lights.back().intensity *= 0.1;
+  renderer.draw(lights, camera_of({}, *mesh));
+  EXPECT_LT(mean_difference(*mesh, renderer.emission(), traced_emission(*mesh, scene.points, lights)), 0.05);
+}
 
 using FrameLights = FrameTest;
 

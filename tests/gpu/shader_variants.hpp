@@ -26,8 +26,11 @@ inline std::vector<ShaderVariant> shader_variants() {
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
   for (const int lanes : {1, 32}) variants.push_back({"patch_emission.comp", {{"LANES", lanes}}});
-  for (const int layers : {1, 6}) variants.push_back({"shadow.geom", {{"LAYERS", layers}}});
-  for (const char* plain : {"vertex_light.comp", "shadow.vert", "shadow.frag", "frame.vert", "frame.frag"})
+  for (const int layers : {1, 6})
+    for (const char* stage : {"shadow.geom", "injection.geom"})
+      variants.push_back({stage, {{"LAYERS", layers}}});
+  for (const char* plain : {"vertex_light.comp", "shadow.vert", "shadow.frag", "frame.vert", "frame.frag",
+                            "injection.frag", "injection_sums.comp", "injection_emission.comp"})
     variants.push_back({plain, {}});
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
   for (const int present : {0, 1}) {
