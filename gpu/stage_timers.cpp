@@ -5,11 +5,14 @@
 
 namespace radiosity {
 
-StageTimers::StageTimers(std::shared_ptr<const GlContext> context, int stages, int frames)
-    : context_(std::move(context)), stages_(stages), seconds_(static_cast<std::size_t>(stages), 0) {
+StageTimers::StageTimers(std::shared_ptr<const GlContext> context, int stages, int frames, Clock clock)
+    : context_(std::move(context)),
+      stages_(stages),
+      clock_(clock),
+      seconds_(static_cast<std::size_t>(stages), 0) {
   const auto borders = static_cast<std::size_t>(stages) + 1;
   at_.assign(static_cast<std::size_t>(frames), std::vector<double>(borders, 0));
-  if (context_->software()) return;
+  if (clock_ == Clock::finishing) return;
   for (std::size_t k = 0; k < borders * static_cast<std::size_t>(frames); ++k)
     queries_.emplace_back(context_, glGenQueries, glDeleteQueries);
 }
@@ -23,14 +26,14 @@ void StageTimers::begin(int frame) {
 }
 
 void StageTimers::end_stage(int frame, int stage) {
-  if (!context_->software()) return glQueryCounter(query(frame, stage + 1), GL_TIMESTAMP);
+  if (clock_ == Clock::device) return glQueryCounter(query(frame, stage + 1), GL_TIMESTAMP);
   glFinish();
   at_[static_cast<std::size_t>(frame)][static_cast<std::size_t>(stage + 1)] = watch_.seconds();
 }
 
 const std::vector<double>& StageTimers::seconds(int frame) {
   std::vector<double>& at = at_[static_cast<std::size_t>(frame)];
-  if (!context_->software())
+  if (clock_ == Clock::device)
     for (int border = 0; border <= stages_; ++border) {
       GLuint64 nanoseconds = 0;
       glGetQueryObjectui64v(query(frame, border), GL_QUERY_RESULT, &nanoseconds);

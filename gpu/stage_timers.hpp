@@ -15,8 +15,15 @@ namespace radiosity {
 /// call.
 class StageTimers {
  public:
+  enum class Clock { device, finishing };
+  static Clock preferred(const GlContext& context) {
+    return context.software() ? Clock::finishing : Clock::device;
+  }
+
   /// For `frames` frames at a time.
-  StageTimers(std::shared_ptr<const GlContext> context, int stages, int frames);
+  StageTimers(std::shared_ptr<const GlContext> context, int stages, int frames)
+      : StageTimers(context, stages, frames, preferred(*context)) {}
+  StageTimers(std::shared_ptr<const GlContext> context, int stages, int frames, Clock clock);
 
   void begin(int frame);
   /// Stages end one after the other, each begins where the one before ended.
@@ -29,9 +36,10 @@ class StageTimers {
 
   std::shared_ptr<const GlContext> context_;
   int stages_;
+  Clock clock_;
   Stopwatch watch_;
-  std::deque<GlName> queries_;           ///< stages + 1 a frame; empty on software renderers
-  std::vector<std::vector<double>> at_;  ///< the borders of stages on software renderers, by frame
+  std::deque<GlName> queries_;           ///< stages + 1 a frame, of the device's clock
+  std::vector<std::vector<double>> at_;  ///< the borders of stages, by frame
   std::vector<double> seconds_;
 };
 

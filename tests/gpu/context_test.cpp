@@ -1,6 +1,7 @@
 #include "gpu/gl_buffer.hpp"
 #include "gpu/gl_program.hpp"
 #include "gpu/gl_timer.hpp"
+#include "gpu/stage_timers.hpp"
 #include "tests/gpu/device_test.hpp"
 
 #include <epoxy/gl.h>
@@ -123,6 +124,26 @@ TEST_F(Context, TimesTheDevice) {
   measurement.reset();
   EXPECT_GE(timer.seconds(), 0);
   EXPECT_LT(timer.seconds(), 10);
+}
+
+TEST_F(Context, TimesStagesByEitherClock) {
+  const CurrentContext current(*device()->context());
+  for (const StageTimers::Clock clock : {StageTimers::Clock::device, StageTimers::Clock::finishing}) {
+    StageTimers timers(device()->context(), 2, 2, clock);
+    for (const int frame : {0, 1}) {
+      timers.begin(frame);
+      timers.end_stage(frame, 0);
+      GlBuffer buffer(device()->context(), 1 << 20);
+      timers.end_stage(frame, 1);
+    }
+    glFinish();
+    for (const int frame : {0, 1})
+      for (const double seconds : timers.seconds(frame)) {
+        EXPECT_GE(seconds, 0);
+        EXPECT_LT(seconds, 10);
+      }
+    device()->context()->check("timers");
+  }
 }
 
 }  // namespace
