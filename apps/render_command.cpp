@@ -98,7 +98,7 @@ std::shared_ptr<const PatchMesh> mesh_of(const RenderOptions& options) {
     fail<UsageError>(
         "--emission {}: the moving light takes the place of emitters; add --emitters to have both",
         options.scene.emission_file);
-  const auto mesh = open_mesh(options.scene);
+  auto mesh = open_mesh(options.scene);
   if (options.emitters) return mesh;
   PatchMesh dark = *mesh;
   dark.emission.setZero();

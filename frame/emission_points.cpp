@@ -62,8 +62,10 @@ EmissionPoints emission_points(const PatchMesh& mesh, int strata) {
   for (Index patch = 0; patch < mesh.patch_count(); ++patch) {
     RandomStream random(points_seed, static_cast<std::uint64_t>(patch));
     for (Index k = 0; k < points.per_patch; ++k) {
-      const double u = (static_cast<double>(k / strata) + random.uniform()) / strata;
-      const double v = (static_cast<double>(k % strata) + random.uniform()) / strata;
+      const Index row = k / strata;
+      const Index column = k % strata;
+      const double u = (static_cast<double>(row) + random.uniform()) / strata;
+      const double v = (static_cast<double>(column) + random.uniform()) / strata;
       points.position.col(patch * points.per_patch + k) = point_on_patch(mesh, patch, u, v);
       points.normal.col(patch * points.per_patch + k) = mesh.normal.col(patch);
     }

@@ -54,12 +54,12 @@ struct CountedFunction<Function> {
 class GlCallCounter {
  public:
   GlCallCounter() {
-#define RADIOSITY_BEGIN(function) CountedFunction<&function>::begin();
+#define RADIOSITY_BEGIN(function) CountedFunction<&(function)>::begin();
     RADIOSITY_GL_FUNCTIONS(RADIOSITY_BEGIN)
 #undef RADIOSITY_BEGIN
   }
   ~GlCallCounter() {
-#define RADIOSITY_END(function) CountedFunction<&function>::end();
+#define RADIOSITY_END(function) CountedFunction<&(function)>::end();
     RADIOSITY_GL_FUNCTIONS(RADIOSITY_END)
 #undef RADIOSITY_END
   }
@@ -69,9 +69,9 @@ class GlCallCounter {
   /// Of each function that was called, since the last time.
   static std::map<std::string, int> take() {
     std::map<std::string, int> calls;
-#define RADIOSITY_TAKE(function)                                                                   \
-  if (CountedFunction<&function>::calls > 0) calls[#function] = CountedFunction<&function>::calls; \
-  CountedFunction<& function>::calls = 0;
+#define RADIOSITY_TAKE(function)                                                                       \
+  if (CountedFunction<&(function)>::calls > 0) calls[#function] = CountedFunction<&(function)>::calls; \
+  CountedFunction<&(function)>::calls = 0;
     RADIOSITY_GL_FUNCTIONS(RADIOSITY_TAKE)
 #undef RADIOSITY_TAKE
     return calls;
