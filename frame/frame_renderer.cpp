@@ -44,9 +44,9 @@ void check(const FrameScene& scene, const LinearOperator& transport) {
 
 }  // namespace
 
-struct FrameRenderer::OnDevice {
-  OnDevice(const std::shared_ptr<GlDevice>& device, const FrameScene& scene, const LinearOperator& transport,
-           const std::vector<FrameLightKind>& lights, const FrameOptions& options, const Vector3& origin)
+struct FrameRenderer::Parts {
+  Parts(const std::shared_ptr<GlDevice>& device, const FrameScene& scene, const LinearOperator& transport,
+        const std::vector<FrameLightKind>& lights, const FrameOptions& options, const Vector3& origin)
       : block(device->context(), sizeof(FrameBlock)),
         shadows(device->context(), blockers(*scene.shown, origin), lights, options.shadow_size),
         resident(device, transport, options.products),
@@ -103,7 +103,7 @@ FrameRenderer::FrameRenderer(std::shared_ptr<GlDevice> device, const FrameScene&
   origin_ = box.center();
   radius_ = 0.5 * box.diagonal().norm();
   const CurrentContext current(*device_->context());
-  parts_ = std::make_unique<OnDevice>(device_, scene, transport, kinds_, options_, origin_);
+  parts_ = std::make_unique<Parts>(device_, scene, transport, kinds_, options_, origin_);
 }
 
 FrameRenderer::~FrameRenderer() = default;

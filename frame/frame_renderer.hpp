@@ -76,7 +76,7 @@ class FrameRenderer {
 
  private:
   static constexpr int frames_at_once = 2;
-  struct OnDevice;  ///< what is made with the context current
+  struct Parts;  ///< what is made with the context current
 
   void upload(const std::vector<FrameLight>& lights, const Camera& camera, double exposure);
   Eigen::MatrixXd columns(const GlBuffer& buffer) const;
@@ -88,7 +88,7 @@ class FrameRenderer {
   double radius_;   ///< everything is within this of it
   double exposure_ = 1;
   FrameBlock block_{};
-  std::unique_ptr<OnDevice> parts_;
+  std::unique_ptr<Parts> parts_;
   FinishedFrame finished_;
   std::int64_t drawn_ = 0;
   std::int64_t collected_ = 0;
