@@ -19,7 +19,7 @@ void require_known_device(const RunOptions& options) {
 
 }  // namespace
 
-std::shared_ptr<GlDevice> open_device(const RunOptions& options) {
+std::shared_ptr<GlDevice> open_device(const RunOptions& options, const GlContextOptions& context) {
   require_known_device(options);
   if (options.device != "gl") return nullptr;
   // A driver that is not there would be reported in Mesa's words as well; who wants them sets the variable.
@@ -27,7 +27,7 @@ std::shared_ptr<GlDevice> open_device(const RunOptions& options) {
   ::setenv("EGL_LOG_LEVEL", "fatal", keep);
   if (options.threads > 0)
     ::setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), keep);  // llvmpipe
-  return GlDevice::open();
+  return GlDevice::open(context);
 }
 
 Program on_device(const Program& program, const RunOptions& options, const std::vector<std::string>& specs) {

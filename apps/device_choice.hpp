@@ -2,6 +2,7 @@
 
 #include "apps/program.hpp"
 #include "apps/run_options.hpp"
+#include "gpu/gl_device.hpp"
 #include "operators/linear_operator.hpp"
 
 #include <memory>
@@ -11,11 +12,9 @@
 
 namespace radiosity {
 
-class GlDevice;
-
 /// The device that --device names; null for cpu. Throws UsageError for one that does not exist and Error
 /// where there is no OpenGL.
-std::shared_ptr<GlDevice> open_device(const RunOptions& options);
+std::shared_ptr<GlDevice> open_device(const RunOptions& options, const GlContextOptions& context = {});
 
 /// The program with its operators on that device. Throws as open_device() does, and UsageError where one of
 /// `specs` cannot run there, before anything is computed.

@@ -30,6 +30,7 @@ void add_commands(CLI::App& app, const Program& program) {
   add_info_command(app, program);
   add_form_factors_command(app, program);
   add_solve_command(app, program);
+  add_render_command(app, program);
   add_compare_command(app, program);
   add_reproduce_command(app, program);
   add_bench_command(app, program);

@@ -19,6 +19,7 @@ struct Program {
 void add_info_command(CLI::App& app, const Program& program);
 void add_form_factors_command(CLI::App& app, const Program& program);
 void add_solve_command(CLI::App& app, const Program& program);
+void add_render_command(CLI::App& app, const Program& program);
 void add_compare_command(CLI::App& app, const Program& program);
 void add_reproduce_command(CLI::App& app, const Program& program);
 void add_bench_command(CLI::App& app, const Program& program);

@@ -3,6 +3,7 @@
 #include "apps/number_ranges.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <limits>
 
@@ -17,8 +18,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->option_text("N");
   command.add_flag("--quiet", options.quiet, "no progress bar and no notes");
   command
-      .add_option("--device", options.device,
-                  "where operators run: cpu, or gl (OpenGL 4.3 or later); default cpu")
+      .add_option(
+          "--device", options.device,
+          fmt::format("where operators run: cpu, or gl (OpenGL 4.3 or later); default {}", options.device))
       ->option_text("cpu|gl");
 }
 

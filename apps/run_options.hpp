@@ -17,6 +17,7 @@ struct RunOptions {
   std::string device = "cpu";
 };
 
+/// What `options` has for the device is the default.
 void add_run_options(CLI::App& command, RunOptions& options);
 
 }  // namespace radiosity

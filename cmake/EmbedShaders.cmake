@@ -1,5 +1,5 @@
 # cmake -D OUTPUT=... -D FOLDER=... -P EmbedShaders.cmake: a source that has the files of a folder as texts.
-file(GLOB files "${FOLDER}/*.comp" "${FOLDER}/*.glsl")
+file(GLOB files "${FOLDER}/*")
 list(SORT files)
 set(text "// Made from gpu/shaders by cmake/EmbedShaders.cmake.\n#include \"gpu/shader_sources.hpp\"\n\n")
 string(APPEND text "namespace radiosity {\n\nconst std::vector<ShaderFile>& shader_files() {\n")

@@ -24,6 +24,15 @@ void DeviceColourOperator::apply_impl(double alpha, const ConstFieldRef& X, doub
   add_answer(alpha, X, reflected, beta, Y);
 }
 
+ResidentProduct DeviceColourOperator::resident_diagonals() const {
+  ResidentProduct product;
+  product.before = inverse_colours_;
+  product.after = Eigen::MatrixXd::Ones(size(), channels());
+  product.reflectance = reflectance_;
+  product.global = global_;
+  return product;
+}
+
 DeviceBouncesOperator::DeviceBouncesOperator(const ColourOperator& original, Matrices sums,
                                              DeviceOrigin origin)
     : DeviceColourOperator(original, std::move(sums), std::move(origin)),
@@ -35,21 +44,33 @@ void DeviceBouncesOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y)
   });
 }
 
+std::optional<ResidentProduct> DeviceBouncesOperator::resident_product() const {
+  ResidentProduct product = resident_diagonals();
+  for (Index distinct = 0; distinct < reflectances_.count(); ++distinct) {
+    product.parts.push_back({&matrix(distinct), {}});
+    for (Index channel = 0; channel < channels(); ++channel)
+      if (reflectances_.of_channel(channel) == distinct) product.parts.back().channels.push_back(channel);
+  }
+  return product;
+}
+
 DeviceTextureOperator::DeviceTextureOperator(const ColourOperator& original,
                                              std::unique_ptr<DeviceMatrix> texture, std::vector<Index> order,
                                              DeviceOrigin origin)
     : DeviceColourOperator(original, only(std::move(texture)), std::move(origin)), order_(std::move(order)) {}
-
-std::optional<DeviceTransport> DeviceTextureOperator::transport_on_device() const {
-  if (global()) return std::nullopt;
-  return DeviceTransport{&matrix(), reflectance().array(), inverse_colours(), order_};
-}
 
 void DeviceTextureOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y) const {
   const Field sorted = X(order_, Eigen::all);
   Field product(X.rows(), X.cols());
   matrix().multiply(sorted, product);
   Y(order_, Eigen::all) = product;
+}
+
+std::optional<ResidentProduct> DeviceTextureOperator::resident_product() const {
+  ResidentProduct product = resident_diagonals();
+  product.parts = {{&matrix(), every_channel(channels())}};
+  product.order = order_;
+  return product;
 }
 
 }  // namespace radiosity

@@ -25,8 +25,8 @@ class DeviceColourOperator : public DeviceOperator<LinearOperator> {
 
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;
 
-  const Eigen::MatrixXd& reflectance() const { return reflectance_; }
-  const Eigen::ArrayXXd& inverse_colours() const { return inverse_colours_; }
+  /// Without parts and order.
+  ResidentProduct resident_diagonals() const;
 
  private:
   Eigen::MatrixXd reflectance_;
@@ -38,6 +38,8 @@ class DeviceColourOperator : public DeviceOperator<LinearOperator> {
 class DeviceBouncesOperator final : public DeviceColourOperator {
  public:
   DeviceBouncesOperator(const ColourOperator& original, Matrices sums, DeviceOrigin origin);
+
+  std::optional<ResidentProduct> resident_product() const override;
 
  protected:
   void multiply_colours(const ConstFieldRef& X, FieldRef Y) const override;
@@ -53,7 +55,7 @@ class DeviceTextureOperator final : public DeviceColourOperator {
   DeviceTextureOperator(const ColourOperator& original, std::unique_ptr<DeviceMatrix> texture,
                         std::vector<Index> order, DeviceOrigin origin);
 
-  std::optional<DeviceTransport> transport_on_device() const override;
+  std::optional<ResidentProduct> resident_product() const override;
 
  protected:
   void multiply_colours(const ConstFieldRef& X, FieldRef Y) const override;

@@ -34,7 +34,7 @@ class HybridFactorsOperator final : public DeviceMatrixOperator, public LowRankF
                         DeviceOrigin origin);
 
   /// None: fields have to come to the CPU for V'.
-  std::optional<DeviceTransport> transport_on_device() const override { return std::nullopt; }
+  std::optional<ResidentProduct> resident_product() const override { return std::nullopt; }
 
   Index rank() const override { return factors_->rank(); }
   void multiply_left(const ConstFieldRef& C, FieldRef Y) const override { factors_->multiply_left(C, Y); }

@@ -30,6 +30,8 @@ class DeviceMatrix {
   /// Y = M X / scale() for fields that are on the device, laid out as FieldBuffers has them, and other
   /// shaders may read Y. The context is current.
   void multiply_on_device(const GlBuffer& X, const GlBuffer& Y, Index columns) const;
+  /// The same for X and Y that are bound already; a memory barrier comes before Y is read.
+  void multiply_bound(Index columns) const { dispatch(columns); }
 
   /// Time of the device in products so far: without sending and receiving fields.
   double device_seconds() const { return device_seconds_; }

@@ -13,6 +13,13 @@ OnDevice::Matrices OnDevice::only(std::unique_ptr<DeviceMatrix> matrix) {
   return matrices;
 }
 
+std::optional<DeviceTransport> OnDevice::transport_on_device() const {
+  const std::optional<ResidentProduct> product = resident_product();
+  if (!product || product->global || product->parts.size() > 1) return std::nullopt;
+  return DeviceTransport{product->parts.front().matrix, product->reflectance.array() * product->after.array(),
+                         product->before.array(), product->order};
+}
+
 DeviceUse OnDevice::use() const {
   DeviceUse use = origin_.use;
   for (const auto& matrix : matrices_) use.device_seconds += matrix->device_seconds();
@@ -35,17 +42,25 @@ DeviceKernelOperator::DeviceKernelOperator(const KernelOperator& original,
     : DeviceOperator(only(std::move(matrix)), std::move(origin), original.root_area(),
                      original.reflectance()) {}
 
-std::optional<DeviceTransport> DeviceKernelOperator::transport_on_device() const {
-  return DeviceTransport{&matrix(), reflectance().array().colwise() / root_area().array(),
-                         root_area().array().replicate(1, channels())};
+std::optional<ResidentProduct> DeviceKernelOperator::resident_product() const {
+  ResidentProduct product;
+  product.parts = {{&matrix(), every_channel(channels())}};
+  product.before = root_area().replicate(1, channels());
+  product.after = product.before.cwiseInverse();
+  product.reflectance = reflectance();
+  return product;
 }
 
 DeviceMatrixOperator::DeviceMatrixOperator(const MatrixOperator& original,
                                            std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
     : DeviceOperator(only(std::move(matrix)), std::move(origin)), reflectance_(original.reflectance()) {}
 
-std::optional<DeviceTransport> DeviceMatrixOperator::transport_on_device() const {
-  return DeviceTransport{&matrix(), reflectance_.array(), Eigen::ArrayXXd::Ones(size(), channels())};
+std::optional<ResidentProduct> DeviceMatrixOperator::resident_product() const {
+  ResidentProduct product;
+  product.parts = {{&matrix(), every_channel(channels())}};
+  product.before = product.after = Eigen::MatrixXd::Ones(size(), channels());
+  product.reflectance = reflectance_;
+  return product;
 }
 
 void DeviceMatrixOperator::apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "gpu/device_matrix.hpp"
 #include "gpu/device_transport.hpp"
+#include "gpu/resident_product.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -26,10 +28,13 @@ class OnDevice {
   virtual ~OnDevice() = default;
   /// Found when it is compared with the CPU's (DeviceUse::difference_max).
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
+  /// Its parts, for whoever multiplies fields that are on the device already; they live as long as it does.
+  /// Nothing where fields have to come to the CPU.
+  virtual std::optional<ResidentProduct> resident_product() const = 0;
 
-  /// What solvers that stay on the device multiply with, with the reflectances of now; empty for operators
-  /// that are not T or take more than one matrix.
-  virtual std::optional<DeviceTransport> transport_on_device() const { return std::nullopt; }
+  /// The same for solvers that stay on the device, with the reflectances of now; nothing for operators that
+  /// are not T or take more than one matrix.
+  std::optional<DeviceTransport> transport_on_device() const;
 
  protected:
   using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
@@ -75,7 +80,7 @@ class DeviceKernelOperator : public DeviceOperator<KernelOperator> {
   DeviceKernelOperator(const KernelOperator& original, std::unique_ptr<DeviceMatrix> matrix,
                        DeviceOrigin origin);
 
-  std::optional<DeviceTransport> transport_on_device() const override;
+  std::optional<ResidentProduct> resident_product() const override;
 
  protected:
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { matrix().multiply(X, Y); }
@@ -91,7 +96,7 @@ class DeviceMatrixOperator : public DeviceOperator<LinearOperator> {
   const Eigen::MatrixXd& reflectance() const { return reflectance_; }
   Index size() const override { return reflectance_.rows(); }
   Index channels() const override { return reflectance_.cols(); }
-  std::optional<DeviceTransport> transport_on_device() const override;
+  std::optional<ResidentProduct> resident_product() const override;
 
  protected:
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override;

@@ -49,6 +49,15 @@ void GlBuffer::bind(unsigned binding) const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
 }
 
+void GlBuffer::bind_range(unsigned binding, std::size_t offset, std::size_t bytes) const {
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, name_, static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(bytes));
+}
+
+void GlBuffer::bind_uniform(unsigned binding) const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, binding, name_);
+}
+
 GlBuffer& GrowingBuffer::reserve(const std::shared_ptr<const GlContext>& context, std::size_t bytes) {
   if (!buffer_ || buffer_->bytes() < bytes) {
     buffer_.reset();

@@ -29,6 +29,12 @@ class GlBuffer {
   void clear();
   /// As storage block `binding` of the shaders.
   void bind(unsigned binding) const;
+  /// The same for `bytes` of it from `offset` on, a multiple of 256.
+  void bind_range(unsigned binding, std::size_t offset, std::size_t bytes) const;
+  /// As uniform block `binding`.
+  void bind_uniform(unsigned binding) const;
+  /// OpenGL's, for what else a buffer can be: vertices, pixels.
+  unsigned name() const { return name_; }
 
  private:
   std::shared_ptr<const GlContext> context_;

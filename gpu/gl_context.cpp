@@ -95,7 +95,7 @@ const char* error_name(GLenum error) {
 
 std::shared_ptr<GlContext> GlContext::open(const GlContextOptions& options) {
   if (const std::string missing = missing_gl_library(options.libraries); !missing.empty())
-    throw Error(missing);
+    throw Error(missing + options.otherwise);
   std::shared_ptr<GlContext> result(new GlContext);
   for (const EglDisplay& display : egl_displays()) {
     result->context_ = open_on(display, options.debug);
@@ -108,8 +108,8 @@ std::shared_ptr<GlContext> GlContext::open(const GlContextOptions& options) {
   if (result->context_ == EGL_NO_CONTEXT)
     fail(
         "there is no OpenGL 4.3 or later here: install its driver (Debian package libgl1-mesa-dri computes "
-        "on the "
-        "CPU where there is no graphics card), or use --device cpu");
+        "on the CPU where there is no graphics card){}",
+        options.otherwise);
   result->debug_ = options.debug;
   const CurrentContext current(*result);
   result->read_strings_and_limits();

@@ -42,6 +42,8 @@ struct GlContextOptions {
   /// Below what the driver states: for tests.
   std::optional<std::int64_t> storage_block_bytes = {};
   std::vector<GlLibrary> libraries = required_gl_libraries();
+  /// What can be done without OpenGL, at the end of the sentence that says that there is none.
+  std::string otherwise = ", or use --device cpu";
 };
 
 /// An OpenGL context without a window: core profile 4.6, else 4.5, else 4.3, which has all that is needed

@@ -25,9 +25,7 @@ std::string missing_gl_library(const std::vector<GlLibrary>& libraries) {
   for (const GlLibrary& library : libraries)
     if (std::none_of(library.names.begin(), library.names.end(), loads))
       return fmt::format(
-          "there is no OpenGL here: {} cannot be loaded; install the Debian packages {} and libgl1-mesa-dri, "
-          "or "
-          "use --device cpu",
+          "there is no OpenGL here: {} cannot be loaded; install the Debian packages {} and libgl1-mesa-dri",
           library.names.front(), library.package);
   return {};
 }

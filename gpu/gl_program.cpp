@@ -11,12 +11,19 @@ namespace {
 
 /// A shader that is deleted when it has been linked.
 struct Shader {
-  GLuint name = glCreateShader(GL_COMPUTE_SHADER);
-  Shader() = default;
+  GLuint name;
+  explicit Shader(GLenum kind) : name(glCreateShader(kind)) {}
   Shader(const Shader&) = delete;
   Shader& operator=(const Shader&) = delete;
   ~Shader() { glDeleteShader(name); }
 };
+
+GLenum kind_of(const std::string& file) {
+  if (file.ends_with(".vert")) return GL_VERTEX_SHADER;
+  if (file.ends_with(".geom")) return GL_GEOMETRY_SHADER;
+  if (file.ends_with(".frag")) return GL_FRAGMENT_SHADER;
+  return GL_COMPUTE_SHADER;
+}
 
 std::string log_of(GLuint object, decltype(glGetShaderiv) get, decltype(glGetShaderInfoLog) get_log) {
   GLint length = 0;
@@ -58,21 +65,38 @@ GlProgram::GlProgram(std::shared_ptr<const GlContext> context, const ShaderVaria
 
 GlProgram::GlProgram(std::shared_ptr<const GlContext> context, const std::string& name,
                      const std::string& text)
-    : context_(std::move(context)), file_(name) {
-  const Shader shader;
-  compile(shader.name, file_, text);
+    : context_(std::move(context)) {
+  link({{name, text}});
+}
+
+GlProgram::GlProgram(std::shared_ptr<const GlContext> context, const std::vector<ShaderVariant>& stages)
+    : context_(std::move(context)) {
+  std::vector<Stage> texts;
+  texts.reserve(stages.size());
+  for (const ShaderVariant& stage : stages) texts.push_back({stage.file, shader_text(stage)});
+  link(texts);
+}
+
+void GlProgram::link(const std::vector<Stage>& stages) {
+  file_ = stages.back().file;
   name_ = glCreateProgram();
-  glAttachShader(name_, shader.name);
-  glLinkProgram(name_);
-  glDetachShader(name_, shader.name);
-  GLint linked = GL_FALSE;
-  glGetProgramiv(name_, GL_LINK_STATUS, &linked);
-  if (linked == GL_FALSE) {
-    const std::string log = log_of(name_, glGetProgramiv, glGetProgramInfoLog);
+  try {
+    for (const Stage& stage : stages) {
+      const Shader shader(kind_of(stage.file));
+      compile(shader.name, stage.file, stage.text);
+      glAttachShader(name_, shader.name);  // which keeps it until the program is deleted
+    }
+    glLinkProgram(name_);
+    GLint linked = GL_FALSE;
+    glGetProgramiv(name_, GL_LINK_STATUS, &linked);
+    if (linked == GL_FALSE)
+      fail("the shader {} does not link: {}", file_, log_of(name_, glGetProgramiv, glGetProgramInfoLog));
+  } catch (...) {
     glDeleteProgram(name_);
-    fail("the shader {} does not link: {}", file_, log);
+    throw;
   }
-  uniforms_ = uniforms_of(name_, text);
+  for (const Stage& stage : stages)
+    for (const auto& uniform : uniforms_of(name_, stage.text)) uniforms_.push_back(uniform);
 }
 
 GlProgram::~GlProgram() {

@@ -11,11 +11,14 @@
 
 namespace radiosity {
 
-/// A compute shader, compiled. The context is current in every call but the destructor's.
+/// A compute shader, compiled, or the stages of a drawing. The context is current in every call but the
+/// destructor's.
 class GlProgram {
  public:
   /// Throws Error with the driver's log where the text does not compile.
   GlProgram(std::shared_ptr<const GlContext> context, const ShaderVariant& variant);
+  /// Of .vert, .geom and .frag files.
+  GlProgram(std::shared_ptr<const GlContext> context, const std::vector<ShaderVariant>& stages);
   GlProgram(std::shared_ptr<const GlContext> context, const std::string& name, const std::string& text);
   ~GlProgram();
   GlProgram(const GlProgram&) = delete;
@@ -29,8 +32,15 @@ class GlProgram {
   void dispatch(std::int64_t groups) const;
 
  private:
+  /// The text of one stage; `file` says in its ending which.
+  struct Stage {
+    std::string file;
+    std::string text;
+  };
+  void link(const std::vector<Stage>& stages);
+
   std::shared_ptr<const GlContext> context_;
-  std::string file_;
+  std::string file_;  ///< of the last stage
   unsigned name_ = 0;
   std::vector<std::pair<std::string, int>> uniforms_;
 };

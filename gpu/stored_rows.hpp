@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/gl_buffer.hpp"
+#include "kernels/products.hpp"
 
 #include <functional>
 #include <memory>

@@ -17,7 +17,7 @@ import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ["foundation", "kernels", "factorizations", "compression", "scene", "form_factors", "operators", "solvers", "gpu",
-           "render", "experiments"]
+           "render", "frame", "experiments"]
 MARK = "end-of-cell-7f3a"
 NUMBERS = itertools.count()
 

@@ -3,54 +3,21 @@
 #include "foundation/error.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <tuple>
 
 namespace radiosity {
-namespace {
-
-/// Patches whose normals differ by less than this (about 0.06 degrees) lie in one plane if they share a
-/// corner.
-constexpr double one_plane = 1e-3;
-
-/// What patches must share to be averaged at a corner; the normal is compared apart, as it is not exact.
-using CornerKey = std::tuple<double, double, double, int, int>;
-
-struct Slot {
-  Vector3 normal;
-  Index row;
-};
-
-}  // namespace
 
 VertexRadiosity::VertexRadiosity(const PatchMesh& mesh, const Eigen::MatrixXd& B)
-    : mesh_(mesh), slots_(mesh.patches.size()) {
+    : mesh_(mesh), corners_(mesh) {
   const Index n = mesh.patch_count();
   if (B.rows() != n && B.rows() != 4 * n)
     fail<UsageError>("radiosity at vertices needs {} rows, or {} for each corner, not {}", n, 4 * n,
                      B.rows());
-  std::map<CornerKey, std::vector<Slot>> corners;
-  Index rows = 0;
-  for (Index i = 0; i < mesh.patch_count(); ++i) {
-    const Patch& patch = mesh.patches[static_cast<std::size_t>(i)];
-    const Vector3 normal = mesh.normal.col(i);
-    for (int k = 0; k < patch.corner_count; ++k) {
-      const Vector3& p = mesh.corner(i, k);
-      std::vector<Slot>& here = corners[{p.x(), p.y(), p.z(), patch.group, patch.material}];
-      auto found = std::find_if(here.begin(), here.end(),
-                                [&](const Slot& slot) { return (slot.normal - normal).norm() < one_plane; });
-      if (found == here.end()) found = here.insert(here.end(), {normal, rows++});
-      slots_[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] = found->row;
-    }
-  }
-
-  values_ = Eigen::MatrixXd::Zero(rows, B.cols());
-  Eigen::VectorXd weight = Eigen::VectorXd::Zero(rows);
+  values_ = Eigen::MatrixXd::Zero(corners_.count(), B.cols());
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(corners_.count());
   for (Index i = 0; i < mesh.patch_count(); ++i)
     for (int k = 0; k < mesh.patches[static_cast<std::size_t>(i)].corner_count; ++k) {
-      values_.row(slot(i, k)) += mesh.area[i] * B.row(B.rows() == n ? i : 4 * i + k);
-      weight[slot(i, k)] += mesh.area[i];
+      values_.row(corners_.of(i, k)) += mesh.area[i] * B.row(B.rows() == n ? i : 4 * i + k);
+      weight[corners_.of(i, k)] += mesh.area[i];
     }
   values_.array().colwise() /= weight.array();
 }

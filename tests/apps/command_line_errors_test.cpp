@@ -37,6 +37,8 @@ class FilledFolder : public TemporaryFolder {
     write("empty.obj", "");
     write("truncated.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
     write("unknown.xyz", "0 0 0\n");
+    write("path.txt", "0.5 0.5 0.5\n0.5 0.6\n");
+    write("short.txt", "0.5 0.5 0.5\n");
     write("garbage.npy", "this is no array");
     write("garbage.kernel", "this is no kernel");
     std::filesystem::create_directory(path() / "folder.npy");
@@ -302,6 +304,28 @@ INSTANTIATE_TEST_SUITE_P(
                 2,
                 {"--kernel", "--save"}},
         Refusal{"width_zero", {"solve", "cube", "-o", "a.png", "--width", "0"}, 2, {"--width"}}),
+    refusal_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Frames, CommandLineRefusal,
+    testing::Values(
+        Refusal{"render_size", {"render", "cube", "--size", "1280"}, 2, {"--size 1280", "1280x720"}},
+        Refusal{"render_light", {"render", "cube", "--light", "sun"}, 2, {"sun", "point", "spot"}},
+        Refusal{"render_on_cpu", {"render", "cube", "--device", "cpu"}, 2, {"--device cpu", "OpenGL"}},
+        Refusal{"render_closure",
+                {"render", "cube", "--operator", "dense:f32,closure=rows"},
+                2,
+                {"closure=rows", "CPU"}},
+        Refusal{"render_two_numbers", {"render", "cube", "-o", "%d-%d.png"}, 2, {"%d-%d.png", "once"}},
+        Refusal{"render_format", {"render", "cube", "-o", "new/%d.jpeg"}, 2, {"%d.jpeg", ".png"}},
+        Refusal{"render_path_line",
+                {"render", "cube", "--path", "path.txt", "-o", "new/%d.png"},
+                2,
+                {"path.txt, line 2", "2 numbers"}},
+        Refusal{"render_path_end",
+                {"render", "cube", "--path", "short.txt", "--frames", "2"},
+                2,
+                {"short.txt", "1 line"}}),
     refusal_name);
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -78,6 +79,43 @@ TEST_F(Device, SolvesAsTheCpuDoes) {
   EXPECT_GT(json("B.json")["upload_seconds"], 0);
   EXPECT_GT(json("B.json")["device_seconds"], 0);
   EXPECT_LE((read_npy(folder_.path() / "B.npy") - on_cpu).norm(), 5e-6 * on_cpu.norm());
+}
+
+TEST_F(Device, RendersFramesWithTheTimesOfTheirStages) {
+  const ProcessResult result = run({"render", "cornell-box", "--patches", "60", "--form-factors", "one-ray",
+                                    "--frames", "3", "--size", "48x36", "--reference", "4", "--shadow-size",
+                                    "256", "-o", "frames/f%02d.png", "--json", "r.json", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  for (const char* name : {"f00.png", "f01.png", "f02.png", "reference.png", "difference.png"})
+    EXPECT_GT(std::filesystem::file_size(folder_.path() / "frames" / name), 100U) << name;
+  const auto written = json("r.json");
+  EXPECT_EQ(written["frames"], 3);
+  EXPECT_EQ(written["width"], 48);
+  EXPECT_GE(written["patches"], 50);
+  EXPECT_EQ(written["operator"], "dense:f32");
+  EXPECT_NE(result.output.find(written["renderer"].get<std::string>()), std::string::npos);
+  ASSERT_EQ(written["stages"].size(), 7U);
+  EXPECT_EQ(written["stages"][0]["name"], "upload");
+  for (const auto& stage : written["stages"]) {
+    EXPECT_GT(stage["seconds"]["min"], 0) << stage["name"];
+    EXPECT_GE(stage["seconds"]["median"], stage["seconds"]["min"]) << stage["name"];
+  }
+  EXPECT_GT(written["frames_per_second"], 0);
+  for (const auto& channel : written["reference"]["mean_difference"]) {
+    EXPECT_LT(channel, 0.2);
+    EXPECT_GT(channel, -0.2);
+  }
+}
+
+TEST_F(Device, RendersAlongAPathOfAFileWithASumOfBounces) {
+  folder_.write("path.txt", "0.3 0.4 0.3\n0.2 0.4 0.3  0.3 0.3 -0.7  0.3 0.3 0.3\n");
+  const ProcessResult result =
+      run({"render", "cornell-box", "--patches", "60", "--path", "path.txt", "--light", "spot", "--operator",
+           "bounces:k=3", "--size", "32x24", "--shadow-size", "64", "-o", "f%d.png", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("1 product a frame"), std::string::npos) << result.output;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "f1.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "f2.png"));
 }
 
 }  // namespace

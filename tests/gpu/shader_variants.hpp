@@ -26,11 +26,19 @@ inline std::vector<ShaderVariant> shader_variants() {
           {"texture_product.comp",
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
+  for (const int lanes : {1, 32}) variants.push_back({"patch_emission.comp", {{"LANES", lanes}}});
+  for (const int layers : {1, 6})
+    for (const char* stage : {"shadow.geom", "injection.geom"})
+      variants.push_back({stage, {{"LAYERS", layers}}});
+  for (const char* plain : {"vertex_light.comp", "shadow.vert", "shadow.frag", "frame.vert", "frame.frag",
+                            "injection.frag", "injection_sums.comp", "injection_emission.comp"})
+    variants.push_back({plain, {}});
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
   variants.push_back({"tall_transposed_wide.comp", {{"COLUMNS", 4}, {"SHARE", 2}}});
   variants.push_back({"tall_product_wide.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
   for (const int present : {0, 1}) {
     variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
+    variants.push_back({"transport_step.comp", {{"FIRST", present}}});
     variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
     variants.push_back({"segment_sums.comp", {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}}});
   }

@@ -13,9 +13,9 @@
 namespace radiosity {
 namespace {
 
-/// Whether the reference compiler of the language accepts a shader.
-bool is_valid(const std::string& text, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "shader.comp";
+/// Whether the reference compiler of the language accepts a shader; `name` ends in its stage.
+bool is_valid(const std::string& name, const std::string& text, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / name;
   std::ofstream(file) << text;
   return std::system(
              ("glslangValidator '" + file.string() + "' > '" + (folder / "log").string() + "'").c_str()) == 0;
@@ -30,19 +30,20 @@ TEST(Shaders, AreValidForTheReferenceCompiler) {
   const TemporaryFolder folder;
   std::set<std::string> used;
   for (const ShaderVariant& variant : shader_variants()) {
-    EXPECT_TRUE(is_valid(shader_text(variant), folder.path()))
+    EXPECT_TRUE(is_valid(variant.file, shader_text(variant), folder.path()))
         << variant.file << ": " << log_text(folder.path());
     used.insert(variant.file);
   }
   for (const ShaderFile& file : shader_files())
-    if (file.name.ends_with(".comp")) {
+    if (!file.name.ends_with(".glsl")) {
       EXPECT_TRUE(used.contains(std::string(file.name))) << file.name << " is in no variant";
     }
 }
 
 TEST(Shaders, OfWhichOneIsWrongAreRefused) {
   const TemporaryFolder folder;
-  EXPECT_FALSE(is_valid("#version 430 core\nvoid main() { not_declared = 1; }\n", folder.path()));
+  EXPECT_FALSE(
+      is_valid("broken.comp", "#version 430 core\nvoid main() { not_declared = 1; }\n", folder.path()));
   EXPECT_NE(log_text(folder.path()).find("not_declared"), std::string::npos);
 }
 

@@ -1,0 +1,6 @@
+// The corners of what blocks light.
+layout(location = 0) in vec3 position;
+
+void main() {
+  gl_Position = vec4(position, 1);
+}
