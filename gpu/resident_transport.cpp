@@ -10,9 +10,9 @@
 namespace radiosity {
 namespace {
 
-constexpr unsigned diagonals_binding = 0;
+constexpr unsigned step_diagonals_binding = 0;
 constexpr unsigned places_binding = 3;
-constexpr unsigned emission_binding = 4;
+constexpr unsigned step_emission_binding = 4;
 constexpr unsigned irradiance_binding = 5;
 constexpr Index patches_of_step_group = 64;
 
@@ -109,11 +109,11 @@ void ResidentTransport::run() const {
 
 /// H from Y, and X of the next product from E + R H.
 void ResidentTransport::step(const GlProgram& program) const {
-  diagonals_->bind(diagonals_binding);
+  diagonals_->bind(step_diagonals_binding);
   x_->bind(FieldBuffers::x_binding);
   y_->bind(FieldBuffers::y_binding);
   places_->bind(places_binding);
-  emission_->bind(emission_binding);
+  emission_->bind(step_emission_binding);
   irradiance_->bind(irradiance_binding);
   program.use();
   program.set("patches", n_);
