@@ -43,6 +43,14 @@ Scene make_clutter(Spec& spec);
 /// of that side. The sky is open; sky=closed spans a canopy over the court (group sky), and it is watertight.
 Scene make_patio(Spec& spec);
 
+/// A nave between two rows of square columns and two aisles (after the picture of document 000, Figure 13):
+/// 12 x 4.75 x 8.5, each row of four columns 0.5 thick and 4 high, under a lintel. Groups: column1 to column4
+/// on the left, column5 to column8 on the right, lintels, floor, ceiling, ends, and of left/ and right/ the
+/// wall, the cloth on its lower part, one a bay, red on the left and blue on the right, and the lamp in the
+/// ceiling of the aisle, which emits. The sky is open above the nave; sky=closed spans a canopy over it (group
+/// sky), and it is watertight.
+Scene make_colonnade(Spec& spec);
+
 /// The inside of a unit sphere as 2 rings^2 facets in rings (3 to 64) of trapezoids, the corners on the
 /// sphere, where F_ij = A_j / A (hard case E2; the facets come near with 1 / rings^2); the upper quarter of
 /// the rings is the group light, the rest wall. Watertight.

@@ -208,6 +208,7 @@ TEST(BuiltInScenes, RefuseValuesOutOfRange) {
                            "clutter:seed=-1",
                            "clutter:reflectance=-0.1",
                            "patio:sky=blue",
+                           "colonnade:sky=blue",
                            "sphere-cavity:rings=2",
                            "bowl:beta=0",
                            "bowl:beta=180",
