@@ -3,6 +3,8 @@
 #include "foundation/error.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/random.hpp"
+#include "frame/direct_light.hpp"
+#include "frame/patch_colour.hpp"
 #include "render/camera_rays.hpp"
 #include "render/patch_rays.hpp"
 #include "render/path_sampling.hpp"
@@ -14,10 +16,6 @@
 namespace radiosity {
 namespace {
 
-Color colour_of(const Eigen::MatrixXd& field, Index patch) {
-  return field.cols() == 3 ? Color(field.row(patch).transpose().array()) : Color::Constant(field(patch, 0));
-}
-
 /// Of a pixel, W/(m^2 sr).
 struct TracedPixel {
   Color radiance = Color::Zero();
@@ -27,7 +25,7 @@ struct TracedPixel {
 class FrameTracer {
  public:
   FrameTracer(const PatchMesh& mesh, const std::vector<FrameLight>& lights)
-      : mesh_(mesh), lights_(lights), rays_(mesh) {}
+      : mesh_(mesh), rays_(mesh), direct_(mesh, rays_, lights) {}
 
   /// From `samples` paths.
   TracedPixel radiance(const Vector3& origin, const Vector3& direction, int samples,
@@ -44,27 +42,10 @@ class FrameTracer {
     const Color reflected = colour_of(mesh_.reflectance, hit.patch) / std::numbers::pi;
     const Color own = colour_of(mesh_.emission, hit.patch) / std::numbers::pi;
     const Color variance = (squares - sum.square() / samples).max(0) / std::max(samples - 1, 1) / samples;
-    return {own + reflected * (direct(hit) + sum / samples), reflected * variance.sqrt()};
+    return {own + reflected * (direct_.irradiance(hit) + sum / samples), reflected * variance.sqrt()};
   }
 
  private:
-  bool visible(const PatchHit& at, const Vector3& light) const {
-    const Vector3 way = light - at.point;
-    const double distance = way.norm();
-    const PatchHit hit = rays_.from_patch(at.patch, at.point, way / distance);
-    return hit.missed() || (hit.point - at.point).norm() >= distance;
-  }
-
-  /// Irradiance straight from the lights.
-  Color direct(const PatchHit& at) const {
-    Color sum = Color::Zero();
-    for (const FrameLight& light : lights_) {
-      const Color received = unshadowed_irradiance(light, at.point, mesh_.normal.col(at.patch));
-      if ((received > 0).any() && visible(at, light.position)) sum += received;
-    }
-    return sum;
-  }
-
   /// Irradiance from one direction, cosine-weighted: B of what is there, by a path that ends by Russian
   /// roulette.
   Color gathered(PatchHit at, RandomStream& random) const {
@@ -77,7 +58,7 @@ class FrameTracer {
       if (at.missed() || !at.front) return sum;
       sum += throughput * colour_of(mesh_.emission, at.patch);
       throughput *= colour_of(mesh_.reflectance, at.patch);
-      sum += throughput * direct(at);
+      sum += throughput * direct_.irradiance(at);
       const double survival = std::min(1.0, throughput.maxCoeff());
       if (random.uniform() >= survival) return sum;
       throughput /= survival;
@@ -85,8 +66,8 @@ class FrameTracer {
   }
 
   const PatchMesh& mesh_;
-  const std::vector<FrameLight>& lights_;
   PatchRays rays_;
+  DirectLight direct_;
 };
 
 void check(const PatchMesh& mesh, const TracedFrameOptions& options) {
