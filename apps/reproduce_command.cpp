@@ -7,6 +7,7 @@
 #include "experiments/dxt_radiosity/dxt_pictures.hpp"
 #include "experiments/dxt_radiosity/dxt_speed.hpp"
 #include "experiments/dxt_radiosity/dxt_voxels.hpp"
+#include "experiments/dxt_radiosity/frame_comparison.hpp"
 #include "experiments/first_light.hpp"
 #include "experiments/hard_cases.hpp"
 #include "experiments/low_rank_radiosity/changing_lights.hpp"
@@ -204,7 +205,31 @@ ReportSection run_dxt_voxels(const ReproduceOptions& options, const std::string&
   return dxt_voxels(options.folder, command, study, monitor);
 }
 
-constexpr std::array<Experiment, 13> experiments = {{{"first-light", run_first_light},
+ReportSection run_frame_comparison(const ReproduceOptions& options, const std::string& command,
+                                   const Program& program, Monitor& monitor) {
+  FrameComparisonOptions comparison;
+  if (options.full) {
+    comparison.patches = 3300;
+    comparison.tolerance = 1e-3;
+    comparison.width = 640;
+    comparison.height = 360;
+    comparison.bands = 32;
+    comparison.reference_paths = 512;
+    comparison.seconds = 4;
+  }
+  comparison.seed = options.run.seed;
+  RunOptions on_device = options.run;
+  on_device.device = "gl";
+  std::shared_ptr<GlDevice> device;
+  try {
+    device = open_device(on_device);
+  } catch (const Error& error) {
+    return skipped_frame_comparison(error.what());
+  }
+  return frame_comparison(options.folder, command, device, comparison, program.operators, monitor);
+}
+
+constexpr std::array<Experiment, 14> experiments = {{{"first-light", run_first_light},
                                                      {"solvers", run_solvers},
                                                      {"hard-cases", run_hard_case_tables},
                                                      {"low-rank-pictures", run_low_rank_pictures},
@@ -216,7 +241,8 @@ constexpr std::array<Experiment, 13> experiments = {{{"first-light", run_first_l
                                                      {"dxt-errors", run_dxt_errors},
                                                      {"dxt-speed", run_dxt_speed},
                                                      {"dxt-pictures", run_dxt_pictures},
-                                                     {"dxt-voxels", run_dxt_voxels}}};
+                                                     {"dxt-voxels", run_dxt_voxels},
+                                                     {"frame-comparison", run_frame_comparison}}};
 
 /// "first-light, solvers, ...".
 std::string known_tables() {

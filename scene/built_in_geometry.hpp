@@ -47,8 +47,8 @@ Scene make_patio(Spec& spec);
 /// 12 x 4.75 x 8.5, each row of four columns 0.5 thick and 4 high, under a lintel. Groups: column1 to column4
 /// on the left, column5 to column8 on the right, lintels, floor, ceiling, ends, and of left/ and right/ the
 /// wall, the cloth on its lower part, one a bay, red on the left and blue on the right, and the lamp in the
-/// ceiling of the aisle, which emits. The sky is open above the nave; sky=closed spans a canopy over it (group
-/// sky), and it is watertight.
+/// ceiling of the aisle, which emits. The sky is open above the nave; sky=closed spans a canopy over it
+/// (group sky), and it is watertight.
 Scene make_colonnade(Spec& spec);
 
 /// The inside of a unit sphere as 2 rings^2 facets in rings (3 to 64) of trapezoids, the corners on the
