@@ -71,7 +71,7 @@ Eigen::RowVectorXd DeviceIteration::advance(int steps) {
     const GlTimer::Measurement measurement(device().timer());
     for (int taken = 0; taken < steps; ++taken) step();
   }
-  const Eigen::RowVectorXd norms = residual_norms();
+  Eigen::RowVectorXd norms = residual_norms();
   transport_.matrix->count_device_seconds(device().timer().seconds());
   device().context()->check("steps of a solver");
   return norms;
