@@ -73,7 +73,7 @@ DeviceBenchmarkOptions DeviceBenchmarkOptions::full_sizes() {
   options.patches_over_bounces = 3300;
   options.bounce_counts = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
   options.costs.patches = 8192;
-  options.seconds = 0.5;
+  options.seconds = options.costs.seconds = 0.5;
   options.full = true;
   return options;
 }
