@@ -54,7 +54,7 @@ TEST(Shaders, AreValidForTheReferenceCompiler) {
 
 TEST(Shaders, OfWhichOneIsWrongAreRefused) {
   const TemporaryFolder folder;
-  const ShaderVariant& variant = shader_variants().front();
+  const ShaderVariant variant = shader_variants().front();
   const Shader right{std::string(variant.file), shader_text(variant)};
   const Shader wrong{"broken.comp", "#version 430 core\nvoid main() { not_declared = 1; }\n"};
   EXPECT_FALSE(are_valid({right, wrong, right}, folder.path()));
