@@ -38,7 +38,7 @@ void add_frames(const std::shared_ptr<GlDevice>& device, const DeviceBenchmarkOp
     monitor.checkpoint(fmt::format("frames of {} x {}", size.rows, size.rank), 0);
     require_room(size, with_full);
     for (DeviceFrames& frames : time_device_frames(device, size, with_full, options.seconds, options.seed))
-      results.frames.push_back(std::move(frames));
+      results.frames.push_back(frames);
   }
 }
 
