@@ -35,6 +35,7 @@ struct BenchOptions {
   std::vector<std::string> operators;
   std::vector<std::string> sizes;
   bool full = false;
+  std::optional<double> seconds;
   std::filesystem::path json_file;
   RunOptions run;
 };
@@ -100,12 +101,14 @@ void bench_device(const BenchOptions& options, const Program& cpu_program) {
   if (!options.sizes.empty()) {
     sizes.sizes.clear();
     sizes.large_sizes.clear();
+    sizes.costs.factors = LowRankSize::parse(options.sizes.front());
   }
   for (const std::string& size : options.sizes) sizes.sizes.push_back(LowRankSize::parse(size));
   if (options.patches) {
     sizes.patches = {*options.patches};
     sizes.patches_over_bounces = sizes.costs.patches = *options.patches;
   }
+  if (options.seconds) sizes.seconds = sizes.costs.seconds = *options.seconds;
   sizes.seed = sizes.costs.seed = options.run.seed;
   TerminalMonitor monitor(options.run.quiet);
   const DeviceResults results =
@@ -166,6 +169,11 @@ void add_bench_command(CLI::App& app, const Program& program) {
       ->expected(1, -1)
       ->option_text("NxK ...");
   command->add_flag("--full", options->full, "for device: the documents' sizes in place of the quick ones");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "for device: of each time; default 0.05, or 0.5 with --full")
+      ->check(number_between(0, 3600, false))
+      ->option_text("S");
   command
       ->add_option("--json", options->json_file,
                    "for device: write what radiosity reproduce --device-results reads")

@@ -20,15 +20,16 @@ DeviceTransport symmetric_form(const DeviceMatrix& kernel, const KernelOperator&
 }  // namespace
 
 ConjugateGradientsOnDevice::ConjugateGradientsOnDevice(const DeviceMatrix& kernel,
-                                                       const KernelOperator& original)
-    : DeviceIteration(symmetric_form(kernel, original), original.root_area()),
+                                                       const KernelOperator& original,
+                                                       std::optional<RowStrategy> strategy)
+    : DeviceIteration(symmetric_form(kernel, original), original.root_area(), strategy),
       root_reflectance_(original.reflectance().array().sqrt()) {
   const CurrentContext current(*device().context());
-  image_ = &device().program({"cg_image.comp", {{"SUMS", 1}}});
+  image_ = &fields_program("cg_image.comp", 1);
   step_length_ = &device().program({"column_scalars.comp", {{"SUMS", 1}, {"STAGE", 1}}});
-  update_ = &device().program({"cg_update.comp", {{"SUMS", 2}}});
+  update_ = &fields_program("cg_update.comp", 2);
   conjugation_ = &device().program({"column_scalars.comp", {{"SUMS", 2}, {"STAGE", 2}}});
-  direction_ = &device().program({"cg_direction.comp", {{"SUMS", 0}}});
+  direction_ = &fields_program("cg_direction.comp", 0);
 }
 
 void ConjugateGradientsOnDevice::reserve(Index columns) {

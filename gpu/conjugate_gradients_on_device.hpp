@@ -13,7 +13,8 @@ namespace radiosity {
 class ConjugateGradientsOnDevice final : public DeviceIteration {
  public:
   /// `kernel` is K on the device, `original` has its diagonals.
-  ConjugateGradientsOnDevice(const DeviceMatrix& kernel, const KernelOperator& original);
+  ConjugateGradientsOnDevice(const DeviceMatrix& kernel, const KernelOperator& original,
+                             std::optional<RowStrategy> strategy = {});
 
   int starting_products() const override { return 1; }
 

@@ -38,8 +38,8 @@ void DeviceField::clear() {
 }
 
 void DeviceField::write(const ConstFieldRef& field) {
-  std::vector<float> numbers(static_cast<std::size_t>(stride() * columns_), 0);
-  for (Index c = 0; c < columns_; ++c)
+  std::vector<float> numbers(static_cast<std::size_t>(stride() * field.cols()), 0);
+  for (Index c = 0; c < field.cols(); ++c)
     Eigen::Map<Eigen::VectorXf>(numbers.data() + c * stride(), rows_) = field.col(c).cast<float>();
   if (!numbers.empty()) buffer_.write(0, numbers.size() * sizeof(float), numbers.data());
 }

@@ -20,7 +20,7 @@ class DeviceField {
   Index stride() const;
 
   void clear();
-  /// Of n x c, rounded to float32.
+  /// The first c <= columns() columns, from n x c, rounded to float32.
   void write(const ConstFieldRef& field);
   /// Waits for the device.
   Field read() const;

@@ -24,8 +24,10 @@ double power_of_two_near(const Eigen::Ref<const Eigen::VectorXd>& numbers) {
 
 }  // namespace
 
-DeviceIteration::DeviceIteration(DeviceTransport transport, const Eigen::VectorXd& root_area)
+DeviceIteration::DeviceIteration(DeviceTransport transport, const Eigen::VectorXd& root_area,
+                                 std::optional<RowStrategy> strategy)
     : transport_(std::move(transport)),
+      shared_sums_(strategy.value_or(device().preferred_strategy()) == RowStrategy::group),
       root_area_unit_(power_of_two_near(root_area)),
       root_area_(root_area / root_area_unit_) {}
 
@@ -45,9 +47,9 @@ void DeviceIteration::reserve_all(Index columns) {
   columns_ = columns;
   const auto& context = device().context();
   if (!diagonals_) send_diagonals();
-  const auto groups = static_cast<std::size_t>(columns * diagonals_->stride() / numbers_of_group);
+  const auto sums = static_cast<std::size_t>(columns * sums_of_column());
   sums_.reset();
-  sums_.emplace(context, std::max<std::size_t>(groups, 1) * most_sums * sizeof(float));
+  sums_.emplace(context, std::max<std::size_t>(sums, 1) * most_sums * sizeof(float));
   scalars_.reset();
   scalars_.emplace(context, static_cast<std::size_t>(columns) * scalars_of_column * sizeof(float));
   scalars_->clear();
@@ -69,7 +71,7 @@ Eigen::RowVectorXd DeviceIteration::advance(int steps) {
     const GlTimer::Measurement measurement(device().timer());
     for (int taken = 0; taken < steps; ++taken) step();
   }
-  const Eigen::RowVectorXd norms = residual_norms();
+  Eigen::RowVectorXd norms = residual_norms();
   transport_.matrix->count_device_seconds(device().timer().seconds());
   device().context()->check("steps of a solver");
   return norms;
@@ -94,6 +96,14 @@ Field DeviceIteration::solution() const {
 
 DeviceField DeviceIteration::new_field(Index columns) const {
   return {device().context(), transport_.left.rows(), columns};
+}
+
+const GlProgram& DeviceIteration::fields_program(const char* file, int sums) const {
+  return device().program({file, {{"SUMS", sums}, {"SHARED", shared_sums_ ? 1 : 0}}});
+}
+
+Index DeviceIteration::sums_of_column() const {
+  return shared_sums_ ? diagonals_->stride() / numbers_of_group : diagonals_->stride();
 }
 
 Field DeviceIteration::sorted(const Field& field) const {
@@ -126,7 +136,7 @@ void DeviceIteration::reduce(const GlProgram& program, bool starting) const {
   scalars_->bind(reduced_scalars_binding);
   sums_->bind(group_sums_binding);
   program.use();
-  program.set("groups_of_column", diagonals_->stride() / numbers_of_group);
+  program.set("groups_of_column", sums_of_column());
   program.set("columns", columns_);
   program.set("starting", starting ? 1 : 0);
   program.dispatch(columns_);

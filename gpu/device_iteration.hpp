@@ -25,7 +25,9 @@ class DeviceIteration {
   virtual int starting_products() const = 0;
 
  protected:
-  DeviceIteration(DeviceTransport transport, const Eigen::VectorXd& root_area);
+  /// `strategy`: whether sums meet in shared memory; empty for the device's own.
+  DeviceIteration(DeviceTransport transport, const Eigen::VectorXd& root_area,
+                  std::optional<RowStrategy> strategy);
   DeviceIteration(const DeviceIteration&) = delete;
   DeviceIteration& operator=(const DeviceIteration&) = delete;
 
@@ -44,6 +46,8 @@ class DeviceIteration {
   Index channels() const { return transport_.left.cols(); }
   GlDevice& device() const { return transport_.matrix->device(); }
   DeviceField new_field(Index columns) const;
+  /// A shader that includes fields.glsl and makes so many sums.
+  const GlProgram& fields_program(const char* file, int sums) const;
   /// By the rows of the matrix from by patch, and back.
   Field sorted(const Field& field) const;
   Field by_patch(const Field& sorted) const;
@@ -60,8 +64,11 @@ class DeviceIteration {
   void reserve_all(Index columns);
   void send_diagonals();
   Eigen::RowVectorXd residual_norms() const;
+  /// Sums of a column of a field: one a work group, or one a number.
+  Index sums_of_column() const;
 
   DeviceTransport transport_;
+  bool shared_sums_;
   double root_area_unit_;
   Eigen::VectorXd root_area_;
   Index columns_ = 0;

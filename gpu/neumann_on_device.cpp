@@ -8,10 +8,11 @@ constexpr unsigned radiosity_binding = 4;
 
 }  // namespace
 
-NeumannOnDevice::NeumannOnDevice(const DeviceTransport& transport, const Eigen::VectorXd& root_areas)
-    : DeviceIteration(transport, root_areas) {
+NeumannOnDevice::NeumannOnDevice(const DeviceTransport& transport, const Eigen::VectorXd& root_areas,
+                                 std::optional<RowStrategy> strategy)
+    : DeviceIteration(transport, root_areas, strategy) {
   const CurrentContext current(*device().context());
-  step_ = &device().program({"neumann_step.comp", {{"SUMS", 1}}});
+  step_ = &fields_program("neumann_step.comp", 1);
   norms_ = &device().program({"column_scalars.comp", {{"SUMS", 1}, {"STAGE", 0}}});
 }
 

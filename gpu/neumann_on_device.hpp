@@ -10,7 +10,8 @@ namespace radiosity {
 /// which is the residual of the D before it.
 class NeumannOnDevice final : public DeviceIteration {
  public:
-  NeumannOnDevice(const DeviceTransport& transport, const Eigen::VectorXd& root_area);
+  NeumannOnDevice(const DeviceTransport& transport, const Eigen::VectorXd& root_area,
+                  std::optional<RowStrategy> strategy = {});
 
   int starting_products() const override { return 0; }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr unsigned segment_offsets_binding = 0;
 constexpr unsigned segment_weights_binding = 3;
+constexpr Index numbers_of_segment_group = 64;
 
 /// A copy of 4-byte numbers. Throws Error where they take more than a storage block.
 template <typename Number>
@@ -36,8 +37,10 @@ SparseVOnDevice::SparseVOnDevice(std::shared_ptr<GlDevice> device_of_factors, co
       left_(device_of_factors, U, strategy, !V.order().empty()),
       offsets_(buffer_of_list(device_of_factors,
                               std::vector<std::uint32_t>(V.offsets().begin(), V.offsets().end()))),
-      segment_sums_("segment_sums.comp",
-                    {{"ORDERED", V.order().empty() ? 0 : 1}, {"WEIGHTED", V.weights().empty() ? 0 : 1}}) {
+      lanes_(strategy == RowStrategy::group ? numbers_of_segment_group : 1),
+      segment_sums_("segment_sums.comp", {{"ORDERED", V.order().empty() ? 0 : 1},
+                                          {"WEIGHTED", V.weights().empty() ? 0 : 1},
+                                          {"LANES", static_cast<int>(lanes_)}}) {
   if (!V.order().empty()) order_.emplace(buffer_of_list(device_of_factors, V.order()));
   if (V.weights().empty()) return;
   double largest = 0;
@@ -74,7 +77,7 @@ void SparseVOnDevice::dispatch_right(Index columns) const {
     program.set("x_stride", FieldBuffers::padded(cols()));
     program.set("sum_stride", FieldBuffers::padded(rank()));
     program.set("first_column", first_column);
-    program.dispatch(rank());
+    program.dispatch((rank() * lanes_ + numbers_of_segment_group - 1) / numbers_of_segment_group);
   });
 }
 

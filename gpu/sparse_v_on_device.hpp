@@ -9,7 +9,7 @@
 namespace radiosity {
 
 /// U V' on the device where V has one number a row (document 004, section 4): V' X is k sums over segments of
-/// the rows sorted by patch, one to a work group.
+/// the rows sorted by patch, one to a work group or an invocation.
 class SparseVOnDevice final : public FactorsOnDevice {
  public:
   /// U: n x k, its rows in the sorted order of V.
@@ -31,6 +31,7 @@ class SparseVOnDevice final : public FactorsOnDevice {
   std::optional<GlBuffer> order_;    ///< empty: rows are sorted already
   std::optional<GlBuffer> weights_;  ///< empty: all 1
   double weight_scale_ = 1;
+  Index lanes_;  ///< that share a segment
   ShaderFamily segment_sums_;
 };
 

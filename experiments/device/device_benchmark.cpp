@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace radiosity {
 namespace {
@@ -38,7 +37,7 @@ void add_frames(const std::shared_ptr<GlDevice>& device, const DeviceBenchmarkOp
     monitor.checkpoint(fmt::format("frames of {} x {}", size.rows, size.rank), 0);
     require_room(size, with_full);
     for (DeviceFrames& frames : time_device_frames(device, size, with_full, options.seconds, options.seed))
-      results.frames.push_back(std::move(frames));
+      results.frames.push_back(frames);
   }
 }
 
@@ -73,7 +72,7 @@ DeviceBenchmarkOptions DeviceBenchmarkOptions::full_sizes() {
   options.patches_over_bounces = 3300;
   options.bounce_counts = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
   options.costs.patches = 8192;
-  options.seconds = 0.5;
+  options.seconds = options.costs.seconds = 0.5;
   options.full = true;
   return options;
 }

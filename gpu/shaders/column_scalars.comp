@@ -1,4 +1,4 @@
-// From the sums of all work groups of a column (fields.glsl) to the scalars that the next step of a solver takes, in a
+// From the sums of all work groups, or numbers, of a column (fields.glsl) to the scalars that the next step of a solver takes, in a
 // work group a column. A column that is solved, or that rounding has made worthless, stays as it is: 0 / 0 is 0 here.
 #include "groups.glsl"
 
@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 1) buffer Scalars { vec4 scalars[]; };  // r^2, alpha, beta, (W r)^2 of a column
 layout(std430, binding = 7) readonly buffer Sums { float group_sums[]; };
 
-uniform uint groups_of_column;
+uniform uint groups_of_column;  // or numbers
 uniform uint columns;
 uniform uint starting;
 

@@ -22,7 +22,14 @@ float diagonal(uint which) {
   return diagonals[(which * channels + channel) * stride + field_place() % stride];
 }
 
-#if SUMS > 0
+#if SUMS > 0 && !SHARED
+// For drivers that compute on the CPU, where shared memory and barriers cost more than all the rest.
+layout(std430, binding = 7) writeonly buffer Sums { float number_sums[]; };  // SUMS of each number of the fields
+
+void add_up(float values[SUMS]) {
+  for (uint s = 0; s < SUMS; ++s) number_sums[field_place() * SUMS + s] = values[s];
+}
+#elif SUMS > 0
 layout(std430, binding = 7) writeonly buffer Sums { float group_sums[]; };  // SUMS of each work group
 shared float lane_sums[SUMS][64];
 

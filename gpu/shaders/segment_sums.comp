@@ -1,5 +1,5 @@
-// C = V' X for COLUMNS columns, where V has one number a row (document 004, Eq. 7): a work group adds up one segment of
-// the rows sorted by patch.
+// C = V' X for COLUMNS columns, where V has one number a row (document 004, Eq. 7): LANES invocations, 64 or one, add up
+// one segment of the rows sorted by patch.
 #include "groups.glsl"
 
 layout(local_size_x = 64) in;
@@ -19,15 +19,18 @@ uniform uint x_stride;    // between columns
 uniform uint sum_stride;  // between columns of coefficients
 uniform uint first_column;
 
+#if LANES > 1
 shared float sums[COLUMNS][64];
+#endif
 
 void main() {
-  uint segment = group_index();
-  if (segment >= segments) return;  // the whole group
-  uint lane = gl_LocalInvocationID.x;
+  uint segment = (group_index() * 64 + gl_LocalInvocationID.x) / LANES;
+  if (segment >= segments) return;  // the whole group where lanes share it
+  uint lane = gl_LocalInvocationID.x % LANES;
   float sum[COLUMNS];
   for (uint c = 0; c < COLUMNS; ++c) sum[c] = 0;
-  for (uint i = offsets[segment] + lane; i < offsets[segment + 1]; i += 64) {
+  uint end = offsets[segment + 1];
+  for (uint i = offsets[segment] + lane; i < end; i += LANES) {
 #if ORDERED
     uint row = order[i];
 #else
@@ -40,6 +43,7 @@ void main() {
 #endif
     for (uint c = 0; c < COLUMNS; ++c) sum[c] += weight * x[(first_column + c) * x_stride + row];
   }
+#if LANES > 1
   for (uint c = 0; c < COLUMNS; ++c) sums[c][lane] = sum[c];
   for (uint width = 32; width > 0; width /= 2) {
     barrier();
@@ -48,4 +52,7 @@ void main() {
   }
   barrier();
   if (lane < COLUMNS) coefficients[(first_column + lane) * sum_stride + segment] = sums[lane][0];
+#else
+  for (uint c = 0; c < COLUMNS; ++c) coefficients[(first_column + c) * sum_stride + segment] = sum[c];
+#endif
 }

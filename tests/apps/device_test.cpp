@@ -64,6 +64,19 @@ TEST_F(Device, IsNamedByEveryResultOfAComparison) {
   EXPECT_LT(results[0]["error"]["operator_frobenius"], 1e-6);
 }
 
+TEST_F(Device, IsMeasuredByOneCommandForTheTablesOfTheDocuments) {
+  const ProcessResult bench = run({"bench", "--device", "gl", "--sizes", "216x54", "--patches", "30",
+                                   "--seconds", "0.001", "--json", "device.json", "--quiet"});
+  ASSERT_EQ(bench.exit_code, 0) << bench.errors;
+  const std::string renderer = json("device.json")["renderer"];
+  EXPECT_NE(bench.output.find(renderer), std::string::npos);
+  EXPECT_EQ(json("device.json")["frames"].size(), 2U);
+  EXPECT_EQ(json("device.json")["over_bounces"].size(), 5U);
+  const ProcessResult refused = run({"reproduce", "low-rank-tables", "--device-results", "missing.json"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("bench --device gl"), std::string::npos) << refused.errors;
+}
+
 TEST_F(Device, SolvesAsTheCpuDoes) {
   const std::vector<std::string> command = {
       "solve", "cornell-box-closed", "--patches", "150", "--quiet", "-o", "B.npy", "--json", "B.json"};

@@ -142,6 +142,27 @@ TEST_F(DeviceSolvers, SolveInFurtherRoundsWhatOneInFloatDoesNotReach) {
   }
 }
 
+TEST_F(DeviceSolvers, AddUpInSharedMemoryOrWithoutItToTheSameNorms) {
+  const TransportCase data = coloured_room();
+  const Field E = lights(data);
+  const auto transport = on_device("dense:f32", data.form_factors);
+  const auto on = dynamic_cast<const OnDevice&>(*transport).transport_on_device().value();
+  const auto& kernel = dynamic_cast<const KernelOperator&>(*transport);
+  NeumannOnDevice shared_sum(on, data.root_area, RowStrategy::group);
+  NeumannOnDevice plain_sum(on, data.root_area, RowStrategy::invocation);
+  ConjugateGradientsOnDevice shared_steps(*on.matrix, kernel, RowStrategy::group);
+  ConjugateGradientsOnDevice plain_steps(*on.matrix, kernel, RowStrategy::invocation);
+  for (const auto& [shared, plain] : {std::pair<DeviceIteration*, DeviceIteration*>{&shared_sum, &plain_sum},
+                                      {&shared_steps, &plain_steps}}) {
+    shared->start(E);
+    plain->start(E);
+    const Eigen::RowVectorXd norms = plain->advance(1);
+    EXPECT_LE((shared->advance(1) - norms).cwiseAbs().maxCoeff(), 1e-4 * norms.maxCoeff());
+    EXPECT_GT(norms.minCoeff(), 0);
+    EXPECT_LE(difference(data.root_area, shared->solution(), plain->solution()), 1e-5);
+  }
+}
+
 TEST_F(DeviceSolvers, FollowReflectancesThatChange) {
   const TransportCase data = coloured_room();
   const Field E = lights(data);

@@ -12,7 +12,7 @@ namespace radiosity {
 #define RADIOSITY_GL_FUNCTIONS(X) \
   X(glActiveTexture) X(glAttachShader) X(glBeginQuery) X(glBindBuffer) X(glBindBufferBase) \
   X(glBindBufferRange) X(glBindFramebuffer) X(glBindRenderbuffer) X(glBindTexture) X(glBindVertexArray) \
-  X(glBufferData) X(glBufferSubData) X(glClear) X(glClearBufferuiv) X(glClearColor) X(glClientWaitSync) X(glCompileShader) \
+  X(glBufferData) X(glBufferSubData) X(glClear) X(glClearBufferData) X(glClearBufferuiv) X(glClearColor) X(glClientWaitSync) X(glCompileShader) \
   X(glCreateProgram) X(glCreateShader) X(glDebugMessageCallback) X(glDeleteBuffers) \
   X(glDeleteFramebuffers) X(glDeleteProgram) X(glDeleteQueries) X(glDeleteRenderbuffers) \
   X(glDeleteShader) X(glDeleteSync) X(glDeleteTextures) X(glDeleteVertexArrays) X(glDisable) \

@@ -40,13 +40,15 @@ inline std::vector<ShaderVariant> shader_variants() {
     variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
     variants.push_back({"transport_step.comp", {{"FIRST", present}}});
     variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
-    variants.push_back({"segment_sums.comp", {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}}});
+    variants.push_back(
+        {"segment_sums.comp",
+         {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}, {"LANES", present == 1 ? 64 : 1}}});
   }
   variants.push_back({"frame_sum.comp", {}});
-  variants.push_back({"neumann_step.comp", {{"SUMS", 1}}});
-  variants.push_back({"cg_image.comp", {{"SUMS", 1}}});
-  variants.push_back({"cg_update.comp", {{"SUMS", 2}}});
-  variants.push_back({"cg_direction.comp", {{"SUMS", 0}}});
+  variants.push_back({"neumann_step.comp", {{"SUMS", 1}, {"SHARED", 1}}});
+  variants.push_back({"cg_image.comp", {{"SUMS", 1}, {"SHARED", 0}}});
+  variants.push_back({"cg_update.comp", {{"SUMS", 2}, {"SHARED", 1}}});
+  variants.push_back({"cg_direction.comp", {{"SUMS", 0}, {"SHARED", 1}}});
   for (const int stage : {0, 1, 2})
     variants.push_back({"column_scalars.comp", {{"SUMS", stage == 2 ? 2 : 1}, {"STAGE", stage}}});
   return variants;
