@@ -140,15 +140,14 @@ class Comparer {
   /// As many paths from the light as take the time of the first frame, and many more: what clamping costs.
   void light_in_equal_time() {
     constexpr int many_paths = 33;
-    constexpr int times_more = 64;
     const PatchRays rays(*result_.mesh);
     const double one = seconds_of_instant_radiosity(rays, 1);
     const double a_path = (seconds_of_instant_radiosity(rays, many_paths) - one) / (many_paths - 1);
     const double further = a_path > 0 ? (result_.frames.front().seconds - one) / a_path : 0;
     const int paths = static_cast<int>(std::clamp(std::round(1 + further), 1.0, most_paths));
     add_instant_radiosity("instant radiosity", rays, paths);
-    add_instant_radiosity(fmt::format("instant radiosity, {} times more", times_more), rays,
-                          times_more * paths);
+    add_instant_radiosity(fmt::format("instant radiosity, {} times more", options_.times_more), rays,
+                          options_.times_more * paths);
   }
 
   FrameComparison result() && { return std::move(result_); }

@@ -28,6 +28,7 @@ struct FrameComparisonOptions {
   int bands = 16;            ///< of the profile
   int reference_paths = 96;  ///< from each pixel
   double closest = 0.5;      ///< of instant radiosity, m
+  int times_more = 64;       ///< paths of its second frame for one of the first
   double seconds = 0.5;      ///< for timing each method's frames
   std::uint64_t seed = 1;
 };
@@ -71,8 +72,8 @@ double gradient_of(const FrameComparison& comparison, const ComparedFrame& frame
 ReportSection frame_comparison_section(const FrameComparison& comparison,
                                        const FrameComparisonOptions& options, const std::string& command);
 
-/// Measures, writes frame_comparison.json, frame_comparison.png and frame_comparison_difference.png into
-/// `folder` (made if it is missing), returns the section.
+/// Measures, writes frame_comparison.json, .png, _reference.png and _difference.png into `folder` (made if it
+/// is missing), returns the section.
 ReportSection frame_comparison(const std::filesystem::path& folder, const std::string& command,
                                const std::shared_ptr<GlDevice>& device, const FrameComparisonOptions& options,
                                const OperatorRegistry& operators, Monitor& monitor);
