@@ -8,7 +8,7 @@
 namespace radiosity {
 namespace {
 
-std::string milliseconds(double seconds) {
+std::string in_milliseconds(double seconds) {
   return fmt::format("{:.3f}", 1e3 * seconds);
 }
 
@@ -71,7 +71,7 @@ ReportTable device_bounces_table(const DeviceResults& results, const std::vector
       table.rows.push_back(
           {method.name, std::to_string(round.patches), std::to_string(round.bounces),
            fmt::format("{:.2f}", 1e-6 * static_cast<double>(method.bytes)),
-           milliseconds(method.on_device.min), milliseconds(method.with_transfers.min),
+           in_milliseconds(method.on_device.min), in_milliseconds(method.with_transfers.min),
            fmt::format("{:.2f}", naive.on_device.min / method.on_device.min),
            fmt::format("{:.2f}", static_cast<double>(naive.bytes) / static_cast<double>(method.bytes)),
            fmt::format("{:.1e}", method.difference)});
@@ -88,8 +88,8 @@ ReportTable device_costs_table(const DeviceResults& results, const std::string& 
       .columns = {"product", "columns", "CPU, ms", "device, ms", "ratio", "at most, in software"},
       .rows = {}};
   for (const ProductCost& cost : results.costs)
-    table.rows.push_back({cost.product, std::to_string(cost.columns), milliseconds(cost.cpu_seconds),
-                          milliseconds(cost.device_cpu_seconds), fmt::format("{:.2f}", cost.ratio()),
+    table.rows.push_back({cost.product, std::to_string(cost.columns), in_milliseconds(cost.cpu_seconds),
+                          in_milliseconds(cost.device_cpu_seconds), fmt::format("{:.2f}", cost.ratio()),
                           fmt::format("{:.0f}", cost.limit)});
   return table;
 }
