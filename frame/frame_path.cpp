@@ -44,6 +44,8 @@ FrameView view_of(const std::vector<double>& numbers, const std::string& where) 
   if (numbers.size() == 9) {
     view.camera = three(3);
     view.target = three(6);
+    if (*view.target == *view.camera)
+      fail<UsageError>("{}: the camera stands where it looks at, so that it has no direction", where);
   }
   return view;
 }

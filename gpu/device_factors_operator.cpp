@@ -4,16 +4,6 @@
 
 namespace radiosity {
 
-DeviceFactorsOperator::DeviceFactorsOperator(const MatrixOperator& original,
-                                             std::unique_ptr<FactorsOnDevice> factors, DeviceOrigin origin)
-    : DeviceMatrixOperator(original, std::move(factors), std::move(origin)),
-      factors_(static_cast<const FactorsOnDevice*>(&matrix())) {}
-
-HybridFactorsOperator::HybridFactorsOperator(const MatrixOperator& original,
-                                             std::unique_ptr<HybridFactors> factors, DeviceOrigin origin)
-    : DeviceMatrixOperator(original, std::move(factors), std::move(origin)),
-      factors_(static_cast<const HybridFactors*>(&matrix())) {}
-
 DeviceKernelFactorsOperator::DeviceKernelFactorsOperator(const KernelOperator& original,
                                                          std::unique_ptr<FactorsOnDevice> factors,
                                                          DeviceOrigin origin)

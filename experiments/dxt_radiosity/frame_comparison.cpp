@@ -134,7 +134,7 @@ class Comparer {
     const double seconds = watch.seconds();
     result_.equal_error_paths = needed;
     result_.equal_error_seconds = seconds * std::max(1.0, needed / paths);
-    add("path tracing", paths_text(paths) + " a pixel", on_cpu_, seconds, frame.picture);
+    add(path_tracing_name, paths_text(paths) + " a pixel", on_cpu_, seconds, frame.picture);
   }
 
   /// As many paths from the light as take the time of the first frame, and many more: what clamping costs.

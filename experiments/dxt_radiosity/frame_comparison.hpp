@@ -33,6 +33,9 @@ struct FrameComparisonOptions {
   std::uint64_t seed = 1;
 };
 
+/// The name of the frame by the reference's own method.
+inline constexpr const char* path_tracing_name = "path tracing";
+
 /// A frame of one method beside the reference.
 struct ComparedFrame {
   std::string name;

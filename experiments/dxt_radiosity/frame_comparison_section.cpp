@@ -81,16 +81,30 @@ PlotSeries profile_series(const std::string& name, const ColumnBands& bands, con
   return series;
 }
 
-/// Values of every frame and the reference over height.
+/// Values of the frames and the reference over height; path tracing differs from the reference by noise
+/// alone.
 template <typename ValuesOf>
-PlotPanel profile_panel(const FrameComparison& comparison, const char* title, const char* label,
+PlotPanel profile_panel(const FrameComparison& comparison, const char* title, const PlotAxis& y,
                         const ValuesOf& values_of) {
-  PlotPanel panel{.title = title, .x = {.label = "height, m"}, .y = {.label = label, .low = 0}, .series = {}};
+  PlotPanel panel{.title = title, .x = {.label = "height, m"}, .y = y, .series = {}};
   for (const ComparedFrame& frame : comparison.frames)
-    panel.series.push_back(profile_series(frame.name, comparison.bands, values_of(frame.profile)));
+    if (frame.name != path_tracing_name)
+      panel.series.push_back(profile_series(frame.name, comparison.bands, values_of(frame.profile)));
   panel.series.push_back(
       profile_series("reference", comparison.bands, values_of(comparison.reference_profile)));
   return panel;
+}
+
+Eigen::VectorXd red_share(const Eigen::MatrixX3d& profile) {
+  return profile.col(0).cwiseQuotient(profile.rowwise().sum());
+}
+
+/// Around the reference, whose gradient is small: a method far from it lies at the edge.
+PlotAxis share_axis(const Eigen::VectorXd& reference) {
+  constexpr double margin = 0.03;
+  return {.label = "red / (red + green + blue)",
+          .low = std::floor(100 * (reference.minCoeff() - margin)) / 100,
+          .high = std::ceil(100 * (reference.maxCoeff() + margin)) / 100};
 }
 
 ReportFigure profile_figure(const FrameComparison& comparison, const FrameComparisonOptions& options,
@@ -99,11 +113,9 @@ ReportFigure profile_figure(const FrameComparison& comparison, const FrameCompar
   plot.title = "Indirect light along the column";
   plot.panels = {
       profile_panel(
-          comparison, "radiance, mean of the channels", "radiance, W/(m²sr)",
+          comparison, "radiance, mean of the channels", {.label = "radiance, W/(m²sr)", .low = 0},
           [](const Eigen::MatrixX3d& profile) { return Eigen::VectorXd(profile.rowwise().mean()); }),
-      profile_panel(comparison, "colour", "red / (red + green + blue)", [](const Eigen::MatrixX3d& profile) {
-        return Eigen::VectorXd(profile.col(0).cwiseQuotient(profile.rowwise().sum()));
-      })};
+      profile_panel(comparison, "colour", share_axis(red_share(comparison.reference_profile)), red_share)};
   return {fmt::format("From foot to head of {}, on its side towards the nave, which the lamp does not reach. "
                       "The document shows that its method has the gradient of colour there that light "
                       "propagation volumes lose (Figure 13).",
