@@ -163,19 +163,13 @@ Picture FrameRenderer::radiance(const std::vector<FrameLight>& lights, const Cam
 }
 
 Eigen::MatrixXd FrameRenderer::emission() const {
-  return columns(parts_->resident.emission());
+  const CurrentContext current(*device_->context());
+  return parts_->resident.emission().read();
 }
 
 Eigen::MatrixXd FrameRenderer::irradiance() const {
-  return columns(parts_->resident.irradiance());
-}
-
-Eigen::MatrixXd FrameRenderer::columns(const GlBuffer& buffer) const {
   const CurrentContext current(*device_->context());
-  Eigen::MatrixXf numbers(parts_->resident.stride(), ResidentTransport::colours);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  buffer.read(static_cast<std::size_t>(numbers.size()) * sizeof(float), numbers.data());
-  return numbers.topRows(parts_->resident.patches()).cast<double>();
+  return parts_->resident.irradiance().read();
 }
 
 }  // namespace radiosity

@@ -79,7 +79,6 @@ class FrameRenderer {
   struct Parts;  ///< what is made with the context current
 
   void upload(const std::vector<FrameLight>& lights, const Camera& camera, double exposure);
-  Eigen::MatrixXd columns(const GlBuffer& buffer) const;
 
   std::shared_ptr<GlDevice> device_;
   FrameOptions options_;

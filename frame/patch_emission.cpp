@@ -35,10 +35,10 @@ void PatchEmission::compute(const ResidentTransport& transport) const {
   points_.bind(points_binding);
   reflectance_.bind(reflectance_binding);
   own_.bind(own_emission_binding);
-  transport.emission().bind(written_emission_binding);
+  transport.emission().buffer().bind(written_emission_binding);
   program_->use();
   program_->set("patches", patches_);
-  program_->set("stride", transport.stride());
+  program_->set("stride", transport.emission().stride());
   program_->set("points_of_patch", points_of_patch_);
   const Index patches_together = invocations_of_emission_group / lanes_;
   program_->dispatch((patches_ + patches_together - 1) / patches_together);

@@ -92,11 +92,11 @@ void PatchInjection::compute(const ResidentTransport& transport) const {
   sums_.bind(read_sums_binding);
   reflectance_.bind(injected_reflectance_binding);
   own_.bind(injected_own_binding);
-  transport.emission().bind(injected_emission_binding);
+  transport.emission().buffer().bind(injected_emission_binding);
   areas_.bind(areas_binding);
   emission_program_->use();
   emission_program_->set("patches", patches_);
-  emission_program_->set("stride", transport.stride());
+  emission_program_->set("stride", transport.emission().stride());
   emission_program_->dispatch((patches_ + invocations_of_injection_group - 1) /
                               invocations_of_injection_group);
 }

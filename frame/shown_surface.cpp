@@ -78,11 +78,11 @@ void ShownSurface::gather(const ResidentTransport& transport) const {
   gather_begin_.bind(begin_binding);
   gather_patch_.bind(gathered_binding);
   gather_weight_.bind(weights_binding_of_gather);
-  transport.irradiance().bind(gathered_irradiance_binding);
+  transport.irradiance().buffer().bind(gathered_irradiance_binding);
   light_.bind(vertex_light_binding);
   gather_program_->use();
   gather_program_->set("vertex_count", vertex_count_);
-  gather_program_->set("stride", transport.stride());
+  gather_program_->set("stride", transport.irradiance().stride());
   gather_program_->dispatch((vertex_count_ + vertices_of_gather_group - 1) / vertices_of_gather_group);
 }
 

@@ -1,6 +1,7 @@
 #include "gpu/resident_transport.hpp"
 
 #include "foundation/error.hpp"
+#include "gpu/field_buffers.hpp"
 
 #include <algorithm>
 #include <epoxy/gl.h>
@@ -15,13 +16,6 @@ constexpr unsigned places_binding = 3;
 constexpr unsigned step_emission_binding = 4;
 constexpr unsigned irradiance_binding = 5;
 constexpr Index patches_of_step_group = 64;
-
-std::unique_ptr<GlBuffer> zeros(const std::shared_ptr<const GlContext>& context, Index numbers) {
-  const std::vector<float> zero(static_cast<std::size_t>(numbers), 0);
-  auto buffer = std::make_unique<GlBuffer>(context, zero.size() * sizeof(float));
-  buffer->write(0, buffer->bytes(), zero.data());
-  return buffer;
-}
 
 ResidentProduct require_product(const LinearOperator& transport) {
   const auto* on_device = dynamic_cast<const OnDevice*>(&transport);
@@ -39,19 +33,13 @@ ResidentProduct require_product(const LinearOperator& transport) {
 
 ResidentTransport::ResidentTransport(std::shared_ptr<GlDevice> device, const LinearOperator& transport,
                                      int products)
-    : device_(std::move(device)), n_(transport.size()), stride_(FieldBuffers::padded(n_)) {
+    : device_(std::move(device)), n_(transport.size()) {
   const ResidentProduct product = require_product(transport);
   if (products < 1) fail<UsageError>("{} products a frame are too few: at least one is needed", products);
   products_ = product.global ? 1 : products;
   const CurrentContext current(*device_->context());
-  const Index numbers = colours * std::max(stride_, FieldBuffers::padding);
-  constexpr Index diagonals = 3;
-  const Index bytes = diagonals * numbers * static_cast<Index>(sizeof(float));
-  if (const std::int64_t limit = device_->context()->limits().storage_block_bytes; bytes > limit)
-    fail("diagonals of {} patches take {} bytes, and a storage block of '{}' at most {}: use fewer patches",
-         n_, bytes, device_->context()->renderer(), limit);
-  for (auto* buffer : {&emission_, &irradiance_, &x_, &y_}) *buffer = zeros(device_->context(), numbers);
-  diagonals_ = zeros(device_->context(), diagonals * numbers);
+  for (auto* field : {&emission_, &irradiance_, &x_, &y_}) field->emplace(device_->context(), n_, colours);
+  diagonals_.emplace(device_->context(), n_, 3 * colours);
 
   Index slot = 0;
   for (const ResidentProduct::Part& part : product.parts) {
@@ -73,7 +61,7 @@ ResidentTransport::ResidentTransport(std::shared_ptr<GlDevice> device, const Lin
 
 /// Columns before, after and reflectance, three each; the scale of the stored numbers goes into `after`.
 void ResidentTransport::upload_diagonals(const ResidentProduct& product) {
-  Eigen::MatrixXf columns = Eigen::MatrixXf::Zero(stride_, 3 * colours);
+  Field columns(n_, 3 * colours);
   const Index channels = product.before.cols();
   for (Index colour = 0; colour < colours; ++colour) {
     const Index channel = colour % channels;
@@ -81,11 +69,11 @@ void ResidentTransport::upload_diagonals(const ResidentProduct& product) {
     for (const ResidentProduct::Part& part : product.parts)
       if (std::find(part.channels.begin(), part.channels.end(), channel) != part.channels.end())
         scale = part.matrix->scale();
-    columns.col(colour).head(n_) = product.before.col(channel).cast<float>();
-    columns.col(colours + colour).head(n_) = (scale * product.after.col(channel)).cast<float>();
-    columns.col(2 * colours + colour).head(n_) = product.reflectance.col(channel).cast<float>();
+    columns.col(colour) = product.before.col(channel);
+    columns.col(colours + colour) = scale * product.after.col(channel);
+    columns.col(2 * colours + colour) = product.reflectance.col(channel);
   }
-  if (n_ > 0) diagonals_->write(0, static_cast<std::size_t>(columns.size()) * sizeof(float), columns.data());
+  diagonals_->write(columns);
 }
 
 void ResidentTransport::upload_places(const std::vector<Index>& order) {
@@ -109,27 +97,27 @@ void ResidentTransport::run() const {
 
 /// H from Y, and X of the next product from E + R H.
 void ResidentTransport::step(const GlProgram& program) const {
-  diagonals_->bind(step_diagonals_binding);
-  x_->bind(FieldBuffers::x_binding);
-  y_->bind(FieldBuffers::y_binding);
+  diagonals_->buffer().bind(step_diagonals_binding);
+  x_->buffer().bind(FieldBuffers::x_binding);
+  y_->buffer().bind(FieldBuffers::y_binding);
   places_->bind(places_binding);
-  emission_->bind(step_emission_binding);
-  irradiance_->bind(irradiance_binding);
+  emission_->buffer().bind(step_emission_binding);
+  irradiance_->buffer().bind(irradiance_binding);
   program.use();
   program.set("patches", n_);
-  program.set("stride", stride_);
+  program.set("stride", x_->stride());
   program.set("slots", slots_);
   program.dispatch((n_ + patches_of_step_group - 1) / patches_of_step_group);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void ResidentTransport::multiply() const {
-  const auto column_bytes = static_cast<std::size_t>(stride_) * sizeof(float);
+  const auto column_bytes = static_cast<std::size_t>(x_->stride()) * sizeof(float);
   for (const Part& part : parts_) {
     const std::size_t offset = static_cast<std::size_t>(part.first_slot) * column_bytes;
     const std::size_t bytes = static_cast<std::size_t>(part.slots) * column_bytes;
-    x_->bind_range(FieldBuffers::x_binding, offset, bytes);
-    y_->bind_range(FieldBuffers::y_binding, offset, bytes);
+    x_->buffer().bind_range(FieldBuffers::x_binding, offset, bytes);
+    y_->buffer().bind_range(FieldBuffers::y_binding, offset, bytes);
     part.matrix->multiply_bound(part.slots);
   }
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "gpu/device_field.hpp"
 #include "gpu/device_operator.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace radiosity {
@@ -22,12 +24,11 @@ class ResidentTransport {
   ResidentTransport(std::shared_ptr<GlDevice> device, const LinearOperator& transport, int products);
 
   Index patches() const { return n_; }
-  /// Numbers between two columns of the buffers below.
-  Index stride() const { return stride_; }
-  /// n x 3, by columns, W/m^2; written before run().
-  GlBuffer& emission() const { return *emission_; }
-  /// n x 3, by columns, W/m^2: what run() writes.
-  const GlBuffer& irradiance() const { return *irradiance_; }
+  /// n x 3, W/m^2; written before run().
+  DeviceField& emission() { return *emission_; }
+  const DeviceField& emission() const { return *emission_; }
+  /// n x 3, W/m^2: what run() writes.
+  const DeviceField& irradiance() const { return *irradiance_; }
   /// Products that run() takes.
   int products() const { return products_; }
 
@@ -48,13 +49,14 @@ class ResidentTransport {
 
   std::shared_ptr<GlDevice> device_;
   Index n_ = 0;
-  Index stride_ = 0;
   int products_ = 1;
   std::vector<Part> parts_;
   Index slots_ = 0;                   ///< the column of X and Y of each colour, 2 bits each
   const GlProgram* first_ = nullptr;  ///< the device's
   const GlProgram* later_ = nullptr;
-  std::unique_ptr<GlBuffer> emission_, irradiance_, x_, y_, diagonals_, places_;
+  std::optional<DeviceField> emission_, irradiance_, x_, y_;
+  std::optional<DeviceField> diagonals_;  ///< n x 9: before, after and reflectance of three colours
+  std::unique_ptr<GlBuffer> places_;
 };
 
 }  // namespace radiosity

@@ -121,6 +121,7 @@ TEST_F(FramePaths, AreRefusedWithTheLineThatIsWrong) {
   EXPECT_NE(refusal_of("1 2 3\n1 2\n").find("line 2: there are 2 numbers"), std::string::npos);
   EXPECT_NE(refusal_of("1 2 x3\n").find("line 1: 'x3' is not a number"), std::string::npos);
   EXPECT_NE(refusal_of("1 2 nan\n").find("'nan'"), std::string::npos);
+  EXPECT_NE(refusal_of("1 2 3\n1 2 3 4 5 6 4 5 6\n").find("line 2: the camera"), std::string::npos);
   EXPECT_NE(refusal_of("# nothing\n").find("no line"), std::string::npos);
   EXPECT_THROW(read_frame_path(folder_.path() / "no-such"), UsageError);
 }

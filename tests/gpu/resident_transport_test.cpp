@@ -55,17 +55,13 @@ class FrameTransport : public DeviceTest {
   /// R F B as the device finds it.
   static Field reflected_there(const LinearOperator& transport, const Field& emission,
                                const Field& reflectance) {
-    const ResidentTransport resident(device(), transport, products);
+    ResidentTransport resident(device(), transport, products);
     const CurrentContext current(*device()->context());
-    Eigen::MatrixXf columns = Eigen::MatrixXf::Zero(resident.stride(), 3);
-    columns.topRows(room_patches) = emission.cast<float>();
-    const auto bytes = static_cast<std::size_t>(columns.size()) * sizeof(float);
-    resident.emission().write(0, bytes, columns.data());
+    resident.emission().write(emission);
     resident.run();
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    resident.irradiance().read(bytes, columns.data());
+    const Field irradiance = resident.irradiance().read();
     device()->context()->check("a frame's transport");
-    return reflectance.cwiseProduct(columns.topRows(room_patches).cast<double>());
+    return reflectance.cwiseProduct(irradiance);
   }
 };
 
