@@ -1,6 +1,7 @@
 #include "scene/patch_mesh.hpp"
 
 #include "foundation/error.hpp"
+#include "foundation/freed_memory.hpp"
 #include "foundation/hash.hpp"
 #include "scene/face_duplicates.hpp"
 #include "scene/patch_division.hpp"
@@ -133,10 +134,8 @@ bool any(const Covers& covers) {
   return std::any_of(covers.begin(), covers.end(), [](const auto& list) { return !list.empty(); });
 }
 
-}  // namespace
-
-PatchMesh make_patches(const Scene& scene, const Subdivision& subdivision) {
-  validate(scene);
+/// make_patches() but for the division's blocks, one a patch, which are freed when it returns.
+PatchMesh divided_mesh(const Scene& scene, const Subdivision& subdivision) {
   PatchMesh mesh;
   mesh.scene = std::make_shared<const Scene>(scene);
   mesh.notes = scene.notes;
@@ -156,6 +155,16 @@ PatchMesh make_patches(const Scene& scene, const Subdivision& subdivision) {
   measure_patches(mesh);
   colour_patches(mesh, scene);
   mesh.topology = topology(any(covers) ? without_contacts(scene) : scene);
+  return mesh;
+}
+
+}  // namespace
+
+PatchMesh make_patches(const Scene& scene, const Subdivision& subdivision) {
+  validate(scene);
+  PatchMesh mesh = divided_mesh(scene, subdivision);
+  constexpr Index many = 100000;
+  if (mesh.patch_count() > many) release_freed_memory();
   return mesh;
 }
 

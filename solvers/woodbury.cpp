@@ -3,6 +3,7 @@
 #include "foundation/error.hpp"
 #include "foundation/hash.hpp"
 
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -40,40 +41,45 @@ void Woodbury::begin() {
   steps_ = 0;
 }
 
-// A field of many million patches is a good part of an operator's memory: the answer is computed where it
-// stays.
-void Woodbury::correct(const std::vector<Index>& columns) {
-  const Field& residuals = steps_ == 0 ? emission() : residuals_;
-  const auto count = static_cast<Index>(columns.size());
-  const bool all = count == residuals.cols();
-  Field coefficients(factors_.rank(), count);
-  if (all)
-    factors_.multiply_right_transposed(residuals, coefficients);
-  else
-    factors_.multiply_right_transposed(Field(residuals(Eigen::all, columns)), coefficients);
-  for (Index k = 0; k < count; ++k)
-    coefficients.col(k) = capacitances_->of_channel(columns[static_cast<std::size_t>(k)] % channels())
-                              .solve(coefficients.col(k));
+/// (I - V' R U)^-1 V' X; `columns` says which column of the emission each of X belongs to.
+Field Woodbury::coefficients(const ConstFieldRef& fields, const std::vector<Index>& columns) const {
+  Field result(factors_.rank(), fields.cols());
+  factors_.multiply_right_transposed(fields, result);
+  for (Index k = 0; k < fields.cols(); ++k)
+    result.col(k) =
+        capacitances_->of_channel(columns[static_cast<std::size_t>(k)] % channels()).solve(result.col(k));
+  return result;
+}
+
+// In place: a field of many million patches is a good part of an operator's memory.
+void Woodbury::answer() {
+  std::vector<Index> columns(static_cast<std::size_t>(emission().cols()));
+  std::iota(columns.begin(), columns.end(), Index{0});
   Field& B = mutable_radiosity();
-  const bool in_place = all && steps_ == 0;
-  Field correction;
-  if (!in_place) correction.resize(size(), count);
-  Field& reflected = in_place ? B : correction;
-  factors_.multiply_left(coefficients, reflected);
-  for (Index k = 0; k < count; ++k) {
+  factors_.multiply_left(coefficients(emission(), columns), B);
+  for (Index j = 0; j < B.cols(); ++j)
+    B.col(j) = emission().col(j) + factors_.albedo().col(j % channels()).cwiseProduct(B.col(j));
+}
+
+void Woodbury::refine(const std::vector<Index>& columns) {
+  const Field residuals = residuals_(Eigen::all, columns);
+  Field reflected(size(), residuals.cols());
+  factors_.multiply_left(coefficients(residuals, columns), reflected);
+  for (Index k = 0; k < residuals.cols(); ++k) {
     const Index j = columns[static_cast<std::size_t>(k)];
-    const auto rho = factors_.albedo().col(j % channels()).array();
-    if (in_place)
-      B.col(j).array() = residuals.col(j).array() + rho * B.col(j).array();
-    else
-      B.col(j).array() += residuals.col(j).array() + rho * reflected.col(k).array();
+    mutable_radiosity().col(j) +=
+        residuals.col(k) + factors_.albedo().col(j % channels()).cwiseProduct(reflected.col(k));
   }
 }
 
 void Woodbury::advance() {
-  if (steps_ > 0) spend_products();
   const std::vector<Index> columns = open_columns();
-  correct(columns);
+  if (steps_ == 0) {
+    answer();
+  } else {
+    spend_products();
+    refine(columns);
+  }
   Field residuals = multiply_open(radiosity());
   for (const Index j : columns) {
     residuals.col(j) += emission().col(j) - radiosity().col(j);

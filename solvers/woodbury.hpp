@@ -30,13 +30,16 @@ class Woodbury final : public SteppedSolver {
  private:
   void begin() override;
   void advance() override;
+  Field coefficients(const ConstFieldRef& fields, const std::vector<Index>& columns) const;
+  /// B = (I - T)^-1 E.
+  void answer();
   /// B += (I - T)^-1 times the residual, for the columns.
-  void correct(const std::vector<Index>& columns);
+  void refine(const std::vector<Index>& columns);
 
   const LowRankFactors& factors_;
   std::optional<CapacitanceMatrices> capacitances_;
   std::uint64_t reflectance_ = 0;  ///< fingerprint of those that they were made for
-  Field residuals_;                ///< E - (I - T) B; empty before the first step, where it is E
+  Field residuals_;                ///< E - (I - T) B; empty before the first step
   int steps_ = 0;
 };
 
