@@ -1,5 +1,6 @@
 #include "apps/solution.hpp"
 
+#include "foundation/freed_memory.hpp"
 #include "foundation/stopwatch.hpp"
 #include "operators/irradiance.hpp"
 
@@ -24,6 +25,7 @@ Solution solve_scene(const FormFactors& form_factors, const Field& emission, con
   const Stopwatch building;
   const std::unique_ptr<LinearOperator> transport =
       program.operators.make(request.operator_spec, form_factors);
+  release_freed_memory();  // what building took, before the solver's fields come on top
   result.build_seconds = building.seconds();
   result.operator_name = transport->describe();
   result.bytes = transport->bytes().total();

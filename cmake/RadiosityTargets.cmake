@@ -4,6 +4,10 @@ add_library(radiosity_options INTERFACE)
 target_compile_options(radiosity_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Wredundant-decls
   -Werror -fno-math-errno -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # Batches fill GCC's heap many times over: collecting at 500 MB in place of 128 saves a sixth of the compilation.
+  target_compile_options(radiosity_options INTERFACE --param=ggc-min-heapsize=500000)
+endif()
 if(RADIOSITY_SANITIZE)
   # Checks of every dereference cost half the compilation; a null pointer ends in a report of the address sanitizer anyway, and
   # only the folders that cast pointers to numbers can misalign them. Of tests, the program and the experiments' drivers only the

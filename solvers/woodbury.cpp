@@ -88,7 +88,7 @@ void Woodbury::advance() {
     accept_residual(j, norm);
     if (!small_enough(j, norm) && steps_ > 0 && accepted_residual(j) > 0.5 * before) end_stagnated(j);
   }
-  residuals_ = std::move(residuals);
+  residuals_ = open_columns().empty() ? Field() : std::move(residuals);
   ++steps_;
 }
 
