@@ -17,10 +17,21 @@ void fill_tables(const TextureCurve& curve, float* tables) {
     }
 }
 
+/// Rows that are read together must not fall into the same few sets of a cache: a line more where they are a
+/// multiple of 2 KiB.
+Index stride_of(Index block_columns) {
+  constexpr Index line = 64 / sizeof(Bc1Block);
+  return block_columns % (32 * line) == 0 ? block_columns + line : block_columns;
+}
+
 }  // namespace
 
 ColourTexture::ColourTexture(Index rows, Index columns, int channels, TextureCurve curve)
-    : rows_(rows), columns_(columns), channels_(channels), curve_(curve) {
+    : rows_(rows),
+      columns_(columns),
+      channels_(channels),
+      curve_(curve),
+      row_stride_(stride_of(block_columns())) {
   if (channels != 1 && channels != 3) fail<UsageError>("a texture of {} matrices: it holds 1 or 3", channels);
   if (curve.logarithmic && !(curve.range > 0 && curve.range <= 80))
     fail<UsageError>("a texture whose codes span {} natural logarithms: take more than 0 and at most 80",
@@ -34,7 +45,7 @@ void ColourTexture::set_block(Index row, Index column, const Bc1Block& block) {
   if (block.first < block.second || (block.first == block.second && block.indices != 0))
     fail<UsageError>("block ({}, {}) has three colours and black: only blocks of four colours are multiplied",
                      row, column);
-  blocks_.get()[row * block_columns() + column] = block;
+  blocks_.get()[row * row_stride_ + column] = block;
 }
 
 float ColourTexture::texel(Index row, Index column, int channel) const {

@@ -48,7 +48,9 @@ class ColourTexture {
   Index block_columns() const {
     return (columns_ + columns_together - 1) / columns_together * blocks_together;
   }
-  const Bc1Block* block_row(Index row) const { return blocks_.get() + row * block_columns(); }
+  const Bc1Block* block_row(Index row) const { return blocks_.get() + row * block_row_stride(); }
+  /// Blocks from one row of them to the next.
+  Index block_row_stride() const { return row_stride_; }
   /// Throws UsageError where the block has not four colours. Different blocks may be set from different
   /// threads at once.
   void set_block(Index row, Index column, const Bc1Block& block);
@@ -71,7 +73,7 @@ class ColourTexture {
   }
 
   std::size_t block_bytes() const {
-    return static_cast<std::size_t>(block_rows() * block_columns()) * sizeof(Bc1Block);
+    return static_cast<std::size_t>(block_rows() * block_row_stride()) * sizeof(Bc1Block);
   }
 
  private:
@@ -79,6 +81,7 @@ class ColourTexture {
   Index columns_;
   int channels_;
   TextureCurve curve_;
+  Index row_stride_;
   std::array<double, 3> scales_{1, 1, 1};
   std::unique_ptr<Bc1Block[], AlignedRelease> blocks_;
   std::unique_ptr<float[], AlignedRelease> tables_;

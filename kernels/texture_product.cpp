@@ -43,6 +43,9 @@ class ScaledLight {
   std::vector<double> scales_;
 };
 
+/// Rows of blocks that a LinearStrip has.
+constexpr Index rows_of_strip = 16;
+
 class TextureProduct {
  public:
   TextureProduct(const ColourTexture& M, const ConstFieldRef& X, FieldRef Y, InstructionSet instructions)
@@ -52,17 +55,17 @@ class TextureProduct {
         channels_(M.channels()),
         groups_(M.block_columns() / ColourTexture::blocks_together),
         products_(texture_products(instructions)),
-        linear_(!M.curve().logarithmic && products_.linear_to_rows[0] != nullptr) {}
+        linear_(!M.curve().logarithmic && products_.linear_strip[0] != nullptr) {}
 
   void multiply_light(Index first_column) {
     const ScaledLight light(X_, first_column, channels_);
+    if (linear_) return multiply_linear_light(light, first_column);
     const AlignedBuffer<float> x(static_cast<std::size_t>(groups_ * channels_ * texture_group));
     parallel_for(static_cast<std::size_t>(groups_), [&](std::size_t group) {
       float* to = x.data() + static_cast<Index>(group) * channels_ * texture_group;
       for (Index c = 0; c < channels_; ++c)
         for (int place = 0; place < texture_group; ++place) {
-          const Index column = static_cast<Index>(group) * texture_group +
-                               (linear_ ? linear_group_column(place) : texture_group_column(place));
+          const Index column = static_cast<Index>(group) * texture_group + texture_group_column(place);
           to[c * texture_group + place] =
               column < M_.columns() ? light(X_(column, first_column + c), c) : 0.0F;
         }
@@ -117,12 +120,70 @@ class TextureProduct {
       TextureTask task = task_of(row, group, std::min<Index>(group + groups_of_a_run, groups_));
       task.x = x + group * channels_ * texture_group;
       task.y_rows = sums;
-      (linear_ ? products_.linear_to_rows : products_.to_rows)[channels_ == 3](task);
+      products_.to_rows[channels_ == 3](task);
     }
     const Index first = row * ColourTexture::block_side;
     for (Index c = 0; c < channels_; ++c)
       for (Index r = 0; r < std::min(ColourTexture::block_side, M_.rows() - first); ++r)
         Y_(first + r, first_column + c) = M_.scale(static_cast<int>(c)) * light.inverse(c) * sums[4 * c + r];
+  }
+
+  void multiply_linear_light(const ScaledLight& light, Index first_column) {
+    const AlignedBuffer<float> weighted(
+        static_cast<std::size_t>(M_.block_columns() * channels_ * linear_numbers));
+    parallel_for(static_cast<std::size_t>(M_.block_columns()), [&](std::size_t column) {
+      float* to = weighted.data() + static_cast<Index>(column) * channels_ * linear_numbers;
+      for (Index c = 0; c < channels_; ++c)
+        weigh_column(static_cast<Index>(column), c, light, first_column, to + c * linear_numbers);
+    });
+    const Index strips = (M_.block_rows() + rows_of_strip - 1) / rows_of_strip;
+    parallel_for(static_cast<std::size_t>(strips), [&](std::size_t strip) {
+      multiply_linear_strip(static_cast<Index>(strip) * rows_of_strip, weighted.data(), light, first_column);
+    });
+  }
+
+  /// What LinearStrip::weighted is of a column of blocks.
+  void weigh_column(Index block_column, Index channel, const ScaledLight& light, Index first_column,
+                    float* to) const {
+    constexpr float weights[4] = {0, 1, texture_third, 1 - texture_third};
+    float x[4] = {};
+    for (Index k = 0; k < 4; ++k)
+      if (const Index column = 4 * block_column + k; column < M_.columns())
+        x[k] = light(X_(column, first_column + channel), channel);
+    for (int high = 0; high < 4; ++high)
+      for (int low = 0; low < 4; ++low) {
+        to[4 * high + low] = weights[low] * x[0] + weights[high] * x[1];
+        to[16 + 4 * high + low] = weights[low] * x[2] + weights[high] * x[3];
+      }
+    to[32] = (x[0] + x[1]) + (x[2] + x[3]);
+  }
+
+  /// A copy with black rows below where rows of blocks are missing, else nothing.
+  std::vector<Bc1Block> whole_strip(Index first_block_row, Index block_rows) const {
+    if (block_rows == rows_of_strip) return {};
+    std::vector<Bc1Block> blocks(static_cast<std::size_t>(rows_of_strip * M_.block_row_stride()));
+    std::copy_n(M_.block_row(first_block_row), block_rows * M_.block_row_stride(), blocks.begin());
+    return blocks;
+  }
+
+  void multiply_linear_strip(Index first_block_row, const float* weighted, const ScaledLight& light,
+                             Index first_column) {
+    const Index block_rows = std::min(rows_of_strip, M_.block_rows() - first_block_row);
+    double sums[3 * 64] = {};
+    const std::vector<Bc1Block> whole = whole_strip(first_block_row, block_rows);
+    LinearStrip strip;
+    strip.blocks =
+        reinterpret_cast<const std::uint64_t*>(whole.empty() ? M_.block_row(first_block_row) : whole.data());
+    strip.row_stride = M_.block_row_stride();
+    strip.block_columns = static_cast<int>(M_.block_columns());
+    strip.weighted = weighted;
+    strip.y = sums;
+    products_.linear_strip[channels_ == 3](strip);
+    for (Index c = 0; c < channels_; ++c)
+      for (Index b = 0; b < block_rows; ++b)
+        for (Index r = 0; r < std::min<Index>(4, M_.rows() - 4 * (first_block_row + b)); ++r)
+          Y_(4 * (first_block_row + b) + r, first_column + c) =
+              M_.scale(static_cast<int>(c)) * light.inverse(c) * sums[64 * c + 16 * r + b];
   }
 
   /// Adds what some rows of blocks contribute to M' x.
@@ -149,7 +210,7 @@ class TextureProduct {
   Index channels_;
   Index groups_;
   TextureProducts products_;
-  bool linear_;  ///< whether linear_to_rows multiplies
+  bool linear_;  ///< whether linear_strip multiplies
 };
 
 void require_whole_lights(const ColourTexture& M, const ConstFieldRef& X) {

@@ -22,11 +22,10 @@ constexpr int texture_group_column(int place) {
   return place % 16 / 4 * 16 + place / 16 * 4 + place % 4;
 }
 
-/// The order that linear_to_rows wants: number 16 c + b of a group of 64 is column 4 b + c, column c of block
-/// b.
-constexpr int linear_group_column(int place) {
-  return place % 16 * 4 + place / 16;
-}
+/// What a column of blocks multiplies in one channel of a linear texture: 16 sums w x of its first two
+/// columns by both indices (the second's above the first's), 16 of the last two, the sum of all four,
+/// padding.
+constexpr int linear_numbers = 48;
 
 /// A run of groups of a row of blocks with the numbers that they are multiplied with.
 struct TextureTask {
@@ -45,15 +44,24 @@ struct TextureTask {
   float* y = nullptr;
 };
 
+/// Sixteen rows of blocks of a linear texture.
+struct LinearStrip {
+  const std::uint64_t* blocks = nullptr;
+  std::ptrdiff_t row_stride = 0;    ///< blocks from one row of blocks to the next
+  int block_columns = 0;            ///< a multiple of 8
+  const float* weighted = nullptr;  ///< linear_numbers a channel, the channels of a column of blocks together
+  double* y = nullptr;              ///< y(r, channel) of row of blocks b at y[64 channel + 16 r + b] += M x
+};
+
 /// Functions for 1 channel at [0] and 3 at [1].
 struct TextureProducts {
   using Function = void (*)(const TextureTask&);
   Function to_rows[2] = {};
   Function to_columns[2] = {};
-  /// to_rows of linear textures with x in another order: weights of indices are summed before they meet the
-  /// colours, so that texels count as theirs to rounding, not to the bit, and 0 as 0. Null where there is
-  /// nothing faster.
-  Function linear_to_rows[2] = {};
+  /// to_rows of linear textures: indices look up sums of x that are weighted already, so that texels count as
+  /// theirs to rounding, not to the bit, and 0 as 0. Null where there is nothing faster.
+  using StripFunction = void (*)(const LinearStrip&);
+  StripFunction linear_strip[2] = {};
 };
 
 TextureProducts texture_products(InstructionSet instructions);

@@ -109,103 +109,171 @@ struct Texels {
 namespace radiosity {
 namespace {
 
-/// The colours of sixteen blocks in one channel, as whole numbers: low + step w, where w is 0, 1, 1/3 or 2/3
-/// by the index.
-struct LinearBlocks {
-  __m512 low;
-  __m512 step;
-  __m512i indices;
+/// A place in sixteen rows of blocks. Four pointers and three distances reach all rows: the compiler is kept
+/// from making sixteen pointers of them, which do not fit into its registers.
+class RowsOfBlocks {
+ public:
+  RowsOfBlocks(const std::uint64_t* first, std::ptrdiff_t stride) : stride_(stride), stride3_(3 * stride) {
+    for (int q = 0; q < 4; ++q) quarters_[q] = first + 4 * q * stride;
+  }
 
-  template <int colour>
-  [[gnu::always_inline]] static inline LinearBlocks of(const std::uint64_t* blocks) {
+  /// Blocks to the right.
+  [[gnu::always_inline]] inline void move(std::ptrdiff_t blocks) {
+    for (const std::uint64_t*& quarter : quarters_) {
+      quarter += blocks;
+      __asm__("" : "+r"(quarter));
+    }
+  }
+
+  /// A line of each row, ahead of where they are read.
+  [[gnu::always_inline]] inline void fetch_ahead() const {
+    constexpr int blocks_ahead = 64;
+    for (const std::uint64_t* quarter : quarters_) {
+      __builtin_prefetch(quarter + blocks_ahead);
+      __builtin_prefetch(quarter + stride_ + blocks_ahead);
+      __builtin_prefetch(quarter + 2 * stride_ + blocks_ahead);
+      __builtin_prefetch(quarter + stride3_ + blocks_ahead);
+    }
+  }
+
+  /// Two blocks of each of the rows k, 4 + k, 8 + k and 12 + k.
+  template <int k>
+  [[gnu::always_inline]] inline __m512i two_columns() const {
+    const std::ptrdiff_t row = k == 3 ? stride3_ : k * stride_;
+    const auto two_blocks = [&](int q) {
+      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(quarters_[q] + row));
+    };
+    __m512i rows = _mm512_zextsi128_si512(two_blocks(0));
+    rows = _mm512_mask_broadcast_i32x4(rows, 0x00f0, two_blocks(1));
+    rows = _mm512_mask_broadcast_i32x4(rows, 0x0f00, two_blocks(2));
+    return _mm512_mask_broadcast_i32x4(rows, 0xf000, two_blocks(3));
+  }
+
+ private:
+  const std::uint64_t* quarters_[4];
+  std::ptrdiff_t stride_;
+  std::ptrdiff_t stride3_;
+};
+
+/// Two columns of blocks of sixteen rows of blocks, a row in each lane.
+struct BlockPair {
+  __m512i endpoints[2];
+  __m512i indices[2];
+
+  [[gnu::always_inline]] static inline BlockPair of(const RowsOfBlocks& at) {
+    const __m512i rows[4] = {at.two_columns<0>(), at.two_columns<1>(), at.two_columns<2>(),
+                             at.two_columns<3>()};
+    const __m512i left[2] = {_mm512_unpacklo_epi32(rows[0], rows[1]),
+                             _mm512_unpacklo_epi32(rows[2], rows[3])};
+    const __m512i right[2] = {_mm512_unpackhi_epi32(rows[0], rows[1]),
+                              _mm512_unpackhi_epi32(rows[2], rows[3])};
+    return {{_mm512_unpacklo_epi64(left[0], left[1]), _mm512_unpacklo_epi64(right[0], right[1])},
+            {_mm512_unpackhi_epi64(left[0], left[1]), _mm512_unpackhi_epi64(right[0], right[1])}};
+  }
+};
+
+/// Sums of a channel over columns of blocks, a row of blocks in each lane. A texel is low + step w in whole
+/// numbers, where w is 0, 1, 1/3 or 2/3 by its index.
+template <int colour>
+struct LinearSums {
+  static constexpr int largest = colour == 1 ? 63 : 31;
+
+  __m512 low = _mm512_setzero_ps();
+  __m512 rows[4] = {low, low, low, low};
+
+  [[gnu::always_inline]] inline void add(__m512i endpoints, __m512i indices, const float* weighted) {
     constexpr int shift = colour == 0 ? 11 : colour == 1 ? 5 : 0;
-    const __m512i endpoints = Texels::halves<false>(blocks);
-    const __m512i largest = _mm512_set1_epi32(linear_largest<colour>);
-    const __m512i first = _mm512_and_si512(_mm512_srli_epi32(endpoints, shift), largest);
-    const __m512i second = _mm512_and_si512(_mm512_srli_epi32(endpoints, shift + 16), largest);
+    const __m512i mask = _mm512_set1_epi32(largest);
+    const __m512i first = _mm512_and_si512(_mm512_srli_epi32(endpoints, shift), mask);
+    const __m512i second = _mm512_and_si512(_mm512_srli_epi32(endpoints, shift + 16), mask);
     // Steps lead up from the lower of the two colours, so that nothing is subtracted and a texel of 0 adds
     // exactly 0: where the first is above, indices 0 and 1, and 2 and 3, change places.
     const __mmask16 down = _mm512_cmpgt_epi32_mask(first, second);
-    const __m512i indices = Texels::halves<true>(blocks);
-    return {_mm512_cvtepi32_ps(_mm512_min_epi32(first, second)),
-            _mm512_cvtepi32_ps(_mm512_abs_epi32(_mm512_sub_epi32(second, first))),
-            _mm512_mask_xor_epi32(indices, down, indices, _mm512_set1_epi32(0x55555555))};
+    indices = _mm512_mask_xor_epi32(indices, down, indices, _mm512_set1_epi32(0x55555555));
+    const __m512 step = _mm512_cvtepi32_ps(_mm512_abs_epi32(_mm512_sub_epi32(second, first)));
+    low = _mm512_fmadd_ps(_mm512_cvtepi32_ps(_mm512_min_epi32(first, second)), _mm512_set1_ps(weighted[32]),
+                          low);
+    const __m512 left = _mm512_load_ps(weighted);
+    const __m512 right = _mm512_load_ps(weighted + 16);
+    rows[0] = _mm512_fmadd_ps(step, weighted_sum<0>(indices, left, right), rows[0]);
+    rows[1] = _mm512_fmadd_ps(step, weighted_sum<1>(indices, left, right), rows[1]);
+    rows[2] = _mm512_fmadd_ps(step, weighted_sum<2>(indices, left, right), rows[2]);
+    rows[3] = _mm512_fmadd_ps(step, weighted_sum<3>(indices, left, right), rows[3]);
   }
 
-  template <int colour>
-  static constexpr int linear_largest = colour == 1 ? 63 : 31;
+  /// y[16 r + lane] += the sums of row r.
+  void give(double* y) const {
+    const __m512d inverse = _mm512_set1_pd(1.0 / largest);
+    for (int r = 0; r < 4; ++r) {
+      const __m512 sums = _mm512_add_ps(low, rows[r]);
+      double* to = y + 16 * r;
+      add_product(_mm512_castps512_ps256(sums), inverse, to);
+      add_product(_mm512_extractf32x8_ps(sums, 1), inverse, to + 8);
+    }
+  }
+
+ private:
+  /// A permutation reads the lowest four bits of a lane: the indices of two texels.
+  template <int row>
+  [[gnu::always_inline]] static inline __m512 weighted_sum(__m512i indices, __m512 left, __m512 right) {
+    const __m512i lowest = row == 0 ? indices : _mm512_srli_epi32(indices, 8 * row);
+    return _mm512_add_ps(_mm512_permutexvar_ps(lowest, left),
+                         _mm512_permutexvar_ps(_mm512_srli_epi32(indices, 8 * row + 4), right));
+  }
+  static void add_product(__m256 sums, __m512d factor, double* y) {
+    _mm512_storeu_pd(y, _mm512_fmadd_pd(_mm512_cvtps_pd(sums), factor, _mm512_loadu_pd(y)));
+  }
 };
 
-/// Sums of w x over a row of texels, each block in its lane. A permutation reads four bits, two indices, of
-/// which one table reads the lower and another the upper, so that indices are shifted once for two texels.
-template <int row>
-[[gnu::always_inline]] inline __m512 weighted_sum(__m512i indices, const __m512 (&x)[4]) {
-  constexpr float third = texture_third;
-  constexpr float thirds = 1 - third;
-  const __m512 lower =
-      _mm512_setr_ps(0, 1, third, thirds, 0, 1, third, thirds, 0, 1, third, thirds, 0, 1, third, thirds);
-  const __m512 upper =
-      _mm512_setr_ps(0, 0, 0, 0, 1, 1, 1, 1, third, third, third, third, thirds, thirds, thirds, thirds);
-  const __m512i left = row == 0 ? indices : _mm512_srli_epi32(indices, 8 * row);
-  const __m512i right = _mm512_srli_epi32(indices, 8 * row + 4);
-  __m512 sum = _mm512_mul_ps(_mm512_permutexvar_ps(left, lower), x[0]);
-  sum = _mm512_fmadd_ps(_mm512_permutexvar_ps(left, upper), x[1], sum);
-  sum = _mm512_fmadd_ps(_mm512_permutexvar_ps(right, lower), x[2], sum);
-  return _mm512_fmadd_ps(_mm512_permutexvar_ps(right, upper), x[3], sum);
-}
+/// What all channels have of a run of columns of blocks.
+template <int... colours>
+class LinearRun : private LinearSums<colours>... {
+ public:
+  static constexpr int numbers = static_cast<int>(sizeof...(colours)) * linear_numbers;  ///< a column
 
-/// The sum of the lanes of each.
-[[gnu::always_inline]] inline __m128 four_sums(const __m512 (&vectors)[4]) {
-  const __m512 first =
-      _mm512_add_ps(_mm512_unpacklo_ps(vectors[0], vectors[1]), _mm512_unpackhi_ps(vectors[0], vectors[1]));
-  const __m512 last =
-      _mm512_add_ps(_mm512_unpacklo_ps(vectors[2], vectors[3]), _mm512_unpackhi_ps(vectors[2], vectors[3]));
-  const __m512 quarters =
-      _mm512_add_ps(_mm512_shuffle_ps(first, last, 0x44), _mm512_shuffle_ps(first, last, 0xee));
-  const __m256 halves = _mm256_add_ps(_mm512_castps512_ps256(quarters), _mm512_extractf32x8_ps(quarters, 1));
-  return _mm_add_ps(_mm256_castps256_ps128(halves), _mm256_extractf128_ps(halves, 1));
-}
-
-template <int colour>
-void multiply_linear_channel(const TextureTask& task, const float* x_of_groups, int stride, double* y) {
-  __m512 low = _mm512_setzero_ps();
-  __m512 sums[4] = {low, low, low, low};
-  for (int group = 0; group < task.groups; ++group) {
-    const LinearBlocks blocks = LinearBlocks::of<colour>(task.blocks + 16 * group);
-    fetch_blocks_ahead(task.blocks + 16 * group);
-    const float* from = x_of_groups + stride * group;
-    const __m512 x[4] = {_mm512_load_ps(from), _mm512_load_ps(from + 16), _mm512_load_ps(from + 32),
-                         _mm512_load_ps(from + 48)};
-    low =
-        _mm512_fmadd_ps(blocks.low, _mm512_add_ps(_mm512_add_ps(x[0], x[1]), _mm512_add_ps(x[2], x[3])), low);
-    sums[0] = _mm512_fmadd_ps(blocks.step, weighted_sum<0>(blocks.indices, x), sums[0]);
-    sums[1] = _mm512_fmadd_ps(blocks.step, weighted_sum<1>(blocks.indices, x), sums[1]);
-    sums[2] = _mm512_fmadd_ps(blocks.step, weighted_sum<2>(blocks.indices, x), sums[2]);
-    sums[3] = _mm512_fmadd_ps(blocks.step, weighted_sum<3>(blocks.indices, x), sums[3]);
+  [[gnu::always_inline]] inline void add(const BlockPair& pair, const float* weighted) {
+    for (int c = 0; c < 2; ++c) {
+      int channel = 0;
+      (LinearSums<colours>::add(pair.endpoints[c], pair.indices[c],
+                                weighted + c * numbers + linear_numbers * channel++),
+       ...);
+    }
   }
-  for (__m512& sum : sums) sum = _mm512_add_ps(low, sum);
-  const __m256d parts = _mm256_cvtps_pd(four_sums(sums));
-  const __m256d largest = _mm256_set1_pd(LinearBlocks::linear_largest<colour>);
-  _mm256_storeu_pd(y, _mm256_add_pd(_mm256_loadu_pd(y), _mm256_div_pd(parts, largest)));
-}
+  void give(double* y) const {
+    int channel = 0;
+    (LinearSums<colours>::give(y + 64 * channel++), ...);
+  }
+};
 
-void multiply_linear_channel_alone(const TextureTask& task) {
-  multiply_linear_channel<1>(task, task.x, texture_group, task.y_rows);
-}
-
-void multiply_linear_channels(const TextureTask& task) {
-  constexpr int stride = 3 * texture_group;
-  multiply_linear_channel<0>(task, task.x, stride, task.y_rows);
-  multiply_linear_channel<1>(task, task.x + texture_group, stride, task.y_rows + 4);
-  multiply_linear_channel<2>(task, task.x + 2 * texture_group, stride, task.y_rows + 8);
+template <int... colours>
+void multiply_linear_strip(const LinearStrip& strip) {
+  constexpr int line = 8;
+  constexpr int columns_of_a_run = 64;  // whose products are added up in float
+  const float* weighted = strip.weighted;
+  RowsOfBlocks at(strip.blocks, strip.row_stride);
+  for (int begin = 0; begin < strip.block_columns; begin += columns_of_a_run) {
+    const int end =
+        strip.block_columns - begin < columns_of_a_run ? strip.block_columns : begin + columns_of_a_run;
+    LinearRun<colours...> run;
+    for (int column = begin; column < end; column += line) {
+      at.fetch_ahead();
+#pragma GCC unroll 1
+      for (int pair = 0; pair < line / 2; ++pair) {
+        run.add(BlockPair::of(at), weighted);
+        at.move(2);
+        weighted += 2 * LinearRun<colours...>::numbers;
+      }
+    }
+    run.give(strip.y);
+  }
 }
 
 }  // namespace
 
 void get_avx512_texture_products(TextureProducts& products) {
   get_texture_products(products);
-  products.linear_to_rows[0] = multiply_linear_channel_alone;
-  products.linear_to_rows[1] = multiply_linear_channels;
+  products.linear_strip[0] = multiply_linear_strip<1>;
+  products.linear_strip[1] = multiply_linear_strip<0, 1, 2>;
 }
 
 }  // namespace radiosity

@@ -93,7 +93,7 @@ TEST(TextureProduct, DecodesTheBitsOfThePlainPaletteWithEveryInstructionSet) {
         for (int c = 0; c < channels; ++c) {
           // Linear textures may be multiplied without making texels: to rounding, and zeros as zeros.
           const bool decodes =
-              curve.logarithmic || texture_products(set).linear_to_rows[channels == 3] == nullptr;
+              curve.logarithmic || texture_products(set).linear_strip[channels == 3] == nullptr;
           const Eigen::ArrayXXd matrix = materialize(M, c).array();
           EXPECT_TRUE(
               ((columns_of(Y, c, channels).array() - matrix).abs() <= (decodes ? 0 : 0x1p-22) * matrix).all())
