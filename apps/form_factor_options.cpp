@@ -4,6 +4,7 @@
 #include "apps/number_ranges.hpp"
 #include "form_factors/kernel_file.hpp"
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -6,6 +6,7 @@
 #include "apps/scene_options.hpp"
 #include "experiments/json_objects.hpp"
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 #include "foundation/parallel.hpp"
 #include "gpu/gl_device.hpp"
 #include "scene/built_in.hpp"

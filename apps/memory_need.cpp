@@ -3,13 +3,9 @@
 #include "foundation/parallel.hpp"
 #include "kernels/symmetric_tiles.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -49,10 +45,6 @@ double tiled_entries(Index n) {
 
 }  // namespace
 
-double machine_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 double form_factor_bytes(Index patch_count, FormFactorMethod method) {
   const auto n = static_cast<double>(patch_count);
   return method == FormFactorMethod::gather ? 8 * n * n : 8 * tiled_entries(patch_count);
@@ -81,16 +73,6 @@ std::vector<MemoryNeed> memory_needs(const PatchMesh& mesh) {
           {"dense:f16", 2 * tiled},
           {"csr:f64", 12 * entries + rows},
           {"csr:f32", 8 * entries + rows}};
-}
-
-std::string byte_text(double bytes) {
-  constexpr std::array units = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
-  std::size_t unit = 0;
-  while (bytes >= 1000 && unit + 1 < units.size()) {
-    bytes /= 1000;
-    ++unit;
-  }
-  return unit == 0 ? fmt::format("{:.0f} bytes", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
 }  // namespace radiosity

@@ -9,9 +9,6 @@
 
 namespace radiosity {
 
-/// Bytes of physical memory that this machine has.
-double machine_memory();
-
 /// At most how many bytes the form factors of n patches take: the upper half of K in double precision, or all
 /// of F for gather.
 double form_factor_bytes(Index patch_count, FormFactorMethod method);
@@ -26,8 +23,5 @@ struct MemoryNeed {
   double bytes = 0;
 };
 std::vector<MemoryNeed> memory_needs(const PatchMesh& mesh);
-
-/// Bytes for a person: "48.1 MB" (powers of ten).
-std::string byte_text(double bytes);
 
 }  // namespace radiosity

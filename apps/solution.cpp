@@ -1,6 +1,6 @@
 #include "apps/solution.hpp"
 
-#include "foundation/freed_memory.hpp"
+#include "foundation/memory.hpp"
 #include "foundation/stopwatch.hpp"
 #include "operators/irradiance.hpp"
 

@@ -3,6 +3,7 @@
 #include "apps/device_choice.hpp"
 #include "apps/memory_need.hpp"
 #include "experiments/json_objects.hpp"
+#include "foundation/memory.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -6,6 +6,7 @@
 #include "experiments/taking_turns.hpp"
 #include "factorizations/blas_threads.hpp"
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 #include "foundation/parallel.hpp"
 
 #include <cblas.h>

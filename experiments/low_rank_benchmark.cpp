@@ -5,6 +5,7 @@
 #include "experiments/taking_turns.hpp"
 #include "factorizations/blas_threads.hpp"
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/random.hpp"
 #include "kernels/segment_sums.hpp"
@@ -177,10 +178,8 @@ void check_low_rank_options(const LowRankBenchmarkOptions& options) {
       fail<UsageError>("a benchmark of {} x {}: choose 1 <= k <= n < 2^31", size.rows, size.rank);
     const double factors =
         3.0 * sizeof(float) * static_cast<double>(size.rows) * static_cast<double>(size.rank);
-    const double needed = factors + static_cast<double>(options.stream_bytes);
-    if (needed > available_memory())
-      fail("a benchmark of {} x {} needs {:.1f} GB and {:.1f} GB are free: choose a smaller size", size.rows,
-           size.rank, 1e-9 * needed, 1e-9 * available_memory());
+    require_available_memory(fmt::format("a benchmark of {} x {}", size.rows, size.rank),
+                             factors + static_cast<double>(options.stream_bytes), "choose a smaller size");
   }
 }
 

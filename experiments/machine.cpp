@@ -39,15 +39,6 @@ double load_average() {
   return getloadavg(&average, 1) == 1 ? average : 0;
 }
 
-double available_memory() {
-  std::ifstream information("/proc/meminfo");
-  std::string key;
-  double kilobytes = 0;
-  for (std::string unit; information >> key >> kilobytes; std::getline(information, unit))
-    if (key == "MemAvailable:") return 1024 * kilobytes;
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 std::string processor_name() {
   std::ifstream information("/proc/cpuinfo");
   for (std::string line; std::getline(information, line);) {

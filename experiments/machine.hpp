@@ -26,7 +26,4 @@ double measure_read_bandwidth(double seconds = 0.2);
 /// The system's load average of the last minute; 0 where the system does not say.
 double load_average();
 
-/// Bytes that can be had without swapping; all there are where the system does not say.
-double available_memory();
-
 }  // namespace radiosity

@@ -27,6 +27,12 @@ std::string bounce_text(const BounceCount& bounces) {
   return bounces ? std::to_string(*bounces) : "inf";
 }
 
+double bounce_sum_bytes(Eigen::Index n, const BounceCount& bounces) {
+  // F and the result; F R, F C, a power and what is being added to it.
+  const double matrices = bounces == 1L ? 2 : 6;
+  return matrices * sizeof(double) * static_cast<double>(n) * static_cast<double>(n);
+}
+
 Eigen::MatrixXd bounce_sum(const Eigen::MatrixXd& F, const Eigen::VectorXd& reflectance,
                            const Eigen::VectorXd& colours, const BounceCount& bounces) {
   if (bounces == 1L) return F * colours.asDiagonal();

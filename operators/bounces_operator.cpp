@@ -1,5 +1,6 @@
 #include "operators/bounces_operator.hpp"
 
+#include "foundation/memory.hpp"
 #include "kernels/products.hpp"
 #include "operators/bounce_sums.hpp"
 #include "operators/colour_operator.hpp"
@@ -20,6 +21,10 @@ class BouncesOperator final : public ColourOperator, public HasStoredColours {
  public:
   BouncesOperator(const FormFactors& form_factors, const BounceCount& bounces)
       : ColourOperator(form_factors, true), bounces_(bounces), reflectances_(reflectance()) {
+    require_available_memory(
+        fmt::format("bounces:k={} of {} patches", bounce_text(bounces), size()),
+        bounce_sum_bytes(size(), bounces) + stored_bytes(),
+        "take fewer patches, or dense with a solver, which has all bounces in its products");
     const Eigen::MatrixXd F = form_factors.matrix();
     const Eigen::MatrixXd colours = sender_colours(reflectance());
     for (Index distinct = 0; distinct < reflectances_.count(); ++distinct) {
@@ -56,6 +61,11 @@ class BouncesOperator final : public ColourOperator, public HasStoredColours {
   }
 
  private:
+  double stored_bytes() const {
+    return static_cast<double>(sizeof(Scalar)) * static_cast<double>(reflectances_.count()) *
+           static_cast<double>(size()) * static_cast<double>(size());
+  }
+
   InstructionSet instructions_ = best_instruction_set();
   BounceCount bounces_;
   DistinctReflectances reflectances_;

@@ -1,6 +1,7 @@
 #include "operators/dxt_operator.hpp"
 
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 #include "operators/bounce_sums.hpp"
 #include "operators/colour_certificate.hpp"
 #include "operators/colour_operator.hpp"
@@ -129,6 +130,11 @@ class DxtOperator final : public ColourOperator, public HasCompressedColours {
 
 std::unique_ptr<LinearOperator> compress_colour(const DxtChoice& choice, const FormFactors& form_factors) {
   const PatchMesh& mesh = *form_factors.mesh;
+  const auto n = static_cast<double>(mesh.patch_count());
+  const double in_float = sizeof(float) * n * n * static_cast<double>(mesh.channels());
+  require_available_memory(fmt::format("{} of {} patches", choice.text(), mesh.patch_count()),
+                           bounce_sum_bytes(mesh.patch_count(), choice.bounces) + in_float,
+                           "take fewer patches, or matrix=kernel, which takes less");
   const Eigen::MatrixXd colours = sender_colours(mesh.reflectance);
   const std::vector<ColourMatrix> matrices = colour_matrices(form_factors, colours, choice.bounces);
   CompressedColours compressed =

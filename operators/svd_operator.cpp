@@ -3,6 +3,7 @@
 #include "factorizations/lanczos_svd.hpp"
 #include "factorizations/lapack.hpp"
 #include "factorizations/randomized_svd.hpp"
+#include "foundation/memory.hpp"
 #include "operators/low_rank_choice.hpp"
 #include "operators/low_rank_operator.hpp"
 
@@ -56,6 +57,10 @@ std::unique_ptr<LinearOperator> make_svd_operator(Spec& spec, const FormFactors&
         choice.storage, form_factors, kept.vectors, kept.values,
         std::optional<double>(left_out ? std::fabs(more.values.tail(1)[0]) : 0), described);
   }
+  const auto n = static_cast<double>(form_factors.patch_count());
+  constexpr double matrices = 5;  // F, U, V and what LAPACK works in
+  require_available_memory(fmt::format("{} of {} patches", described, form_factors.patch_count()),
+                           matrices * sizeof(double) * n * n, "take rsvd or method=lanczos");
   const SingularValues svd = singular_value_decomposition(form_factors.matrix());
   const Index rank = std::min(choice.rank, svd.values.size());
   return make_low_rank_operator(choice, form_factors, scaled_left(svd, rank), described);

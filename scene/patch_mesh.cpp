@@ -1,8 +1,8 @@
 #include "scene/patch_mesh.hpp"
 
 #include "foundation/error.hpp"
-#include "foundation/freed_memory.hpp"
 #include "foundation/hash.hpp"
+#include "foundation/memory.hpp"
 #include "scene/face_duplicates.hpp"
 #include "scene/patch_division.hpp"
 #include "scene/scene_validation.hpp"

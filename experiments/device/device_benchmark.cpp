@@ -6,6 +6,7 @@
 #include "experiments/low_rank_radiosity/published_tables.hpp"
 #include "experiments/machine.hpp"
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 #include "foundation/parallel.hpp"
 #include "scene/built_in.hpp"
 
@@ -23,10 +24,8 @@ constexpr Index rounded_rank = 224;
 void require_room(const LowRankSize& size, bool with_full) {
   const double entries = static_cast<double>(size.rows) * static_cast<double>(size.rank);
   const double copies = with_full ? 4 : 2;  // here and, on a software renderer, there
-  const double needed = entries * sizeof(float) * copies;
-  if (needed > available_memory())
-    fail("frames of {} x {} need {:.1f} GB and {:.1f} GB are free: leave --full away", size.rows, size.rank,
-         1e-9 * needed, 1e-9 * available_memory());
+  require_available_memory(fmt::format("a frame of {} x {}", size.rows, size.rank),
+                           entries * sizeof(float) * copies, "leave --full away");
 }
 
 void add_frames(const std::shared_ptr<GlDevice>& device, const DeviceBenchmarkOptions& options,

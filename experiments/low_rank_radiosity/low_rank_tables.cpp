@@ -7,6 +7,7 @@
 #include "experiments/low_rank_radiosity/published_tables.hpp"
 #include "experiments/low_rank_radiosity/solved_factors.hpp"
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 #include "foundation/output_file.hpp"
 #include "foundation/parallel.hpp"
 #include "foundation/stopwatch.hpp"
@@ -43,11 +44,10 @@ SolvedFactors compute_factors(const LowRankTablesOptions& options, LowRankTableR
 }
 
 /// Y, V in full, meshes and a batch of rows in double.
-void require_memory(const LowRankSize& size, bool with_full) {
-  const double needed = entries_of(size) * sizeof(float) * (with_full ? 2 : 1) * 1.3;
-  if (needed > available_memory())
-    fail("the tables of document 004 at {} x {} need {:.1f} GB and {:.1f} GB are free", size.rows, size.rank,
-         1e-9 * needed, 1e-9 * available_memory());
+void require_room_for_row(const LowRankSize& size, bool with_full) {
+  require_available_memory(fmt::format("document 004's {} x {}", size.rows, size.rank),
+                           entries_of(size) * sizeof(float) * (with_full ? 2 : 1) * 1.3,
+                           "free some, or leave --full away");
 }
 
 LowRankTableRow measure_table_row(const LowRankSize& size, bool with_full,
@@ -57,7 +57,7 @@ LowRankTableRow measure_table_row(const LowRankSize& size, bool with_full,
   row.size = size;
   if (entries_of(size) > options.largest_timed) return row;
   monitor.checkpoint(fmt::format("{} x {}", size.rows, size.rank), 0);
-  require_memory(size, with_full);
+  require_room_for_row(size, with_full);
   const SolvedFactors factors = entries_of(size) <= options.largest_computed
                                     ? compute_factors(options, row, monitor)
                                     : random_factors(size, options.seed);
