@@ -105,7 +105,11 @@ ByteCount CsrOnDevice::bytes() const {
 }
 
 void CsrOnDevice::dispatch(Index columns) const {
-  dispatch_rows(product_, 0, 1, columns);
+  dispatch_product(0, 1, columns);
+}
+
+void CsrOnDevice::dispatch_product(Index first, Index step, Index columns) const {
+  dispatch_rows(product_, first, step, (columns - first + step - 1) / step);
 }
 
 void CsrOnDevice::dispatch_sum(Index first, Index step, Index columns) const {

@@ -20,8 +20,9 @@ class CsrOnDevice final : public DeviceMatrix {
   ByteCount bytes() const override;
   double scale() const override { return 1; }
 
-  /// Y += M X, both bound as FieldBuffers says, for the columns first, first + step, ... below `columns`: for
-  /// matrices that are a part of another.
+  /// Y = M X and Y += M X, both bound as FieldBuffers says, for the columns first, first + step, ... below
+  /// `columns`: for matrices that are a part of another.
+  void dispatch_product(Index first, Index step, Index columns) const;
   void dispatch_sum(Index first, Index step, Index columns) const;
 
   /// Over how many storage blocks it is split.

@@ -20,6 +20,9 @@ struct DeviceOrigin {
   std::string remark;
   Certificate certificate;
   DeviceUse use;
+  /// What a component of a product with a field in [0, 1] may differ by from the CPU's because the device
+  /// decodes otherwise, besides rounding: n x channels; empty: 0.
+  Eigen::MatrixXd decoding_difference;
 };
 
 /// What operators that compute with copies of matrices on the device have.
@@ -28,6 +31,7 @@ class OnDevice {
   virtual ~OnDevice() = default;
   /// Found when it is compared with the CPU's (DeviceUse::difference_max).
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
+  const Eigen::MatrixXd& decoding_difference() const { return origin_.decoding_difference; }
   /// Its parts, for whoever multiplies fields that are on the device already; they live as long as it does.
   /// Nothing where fields have to come to the CPU.
   virtual std::optional<ResidentProduct> resident_product() const = 0;

@@ -37,6 +37,8 @@ class HasCompressedColours {
  public:
   virtual ~HasCompressedColours() = default;
   virtual const CompressedColours& compressed_colours() const = 0;
+  /// Of the patches, for certificates of other placements.
+  virtual const Eigen::VectorXd& area() const = 0;
 };
 
 }  // namespace radiosity

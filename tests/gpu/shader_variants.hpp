@@ -25,6 +25,9 @@ inline std::vector<ShaderVariant> shader_variants() {
       variants.push_back(
           {"texture_product.comp",
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
+      variants.push_back(
+          {"texture_sampled.comp",
+           {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
   for (const int lanes : {1, 32}) variants.push_back({"patch_emission.comp", {{"LANES", lanes}}});
   for (const int layers : {1, 6})

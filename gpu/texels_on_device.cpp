@@ -1,0 +1,39 @@
+#include "gpu/texels_on_device.hpp"
+
+#include <epoxy/gl.h>
+
+namespace radiosity {
+
+TexelsOnDevice::TexelsOnDevice(const std::shared_ptr<GlDevice>& device, Index rows, Index columns,
+                               const KeptApart& kept_apart, RowStrategy strategy)
+    : DeviceMatrix(device, rows, columns), scale_(kept_apart.scale), strategy_(strategy) {
+  for (const CsrMatrix<float>& matrix : kept_apart.channels)
+    kept_apart_.push_back(std::make_unique<CsrOnDevice>(device, matrix, strategy));
+}
+
+ByteCount TexelsOnDevice::bytes() const {
+  ByteCount bytes{{{"texels", texel_bytes()}, {"exact", 0}, {"indices", 0}}};
+  for (const auto& matrix : kept_apart_) {
+    const ByteCount own = matrix->bytes();
+    for (std::size_t part = 0; part < own.parts.size(); ++part)
+      bytes.parts[part + 1].second += own.parts[part].second;
+  }
+  return bytes;
+}
+
+void TexelsOnDevice::dispatch(Index columns) const {
+  const bool texels = texel_bytes() > 0;
+  if (texels) {
+    dispatch_texels(columns);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+  for (Index channel = 0; channel < channels(); ++channel) {
+    const CsrOnDevice& matrix = *kept_apart_[static_cast<std::size_t>(channel)];
+    if (texels)
+      matrix.dispatch_sum(channel, channels(), columns);
+    else
+      matrix.dispatch_product(channel, channels(), columns);
+  }
+}
+
+}  // namespace radiosity

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "gpu/csr_on_device.hpp"
+#include "gpu/device_matrix.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace radiosity {
+
+/// What is kept apart of compressed matrices, to be added to their texels: one sparse matrix a channel, as
+/// parts of `scale`, a power of two.
+struct KeptApart {
+  double scale = 1;
+  std::vector<CsrMatrix<float>> channels;
+};
+
+/// Compressed matrices on the device, one a channel: texels, which kinds of this decode in shaders of their
+/// own, and what is kept apart. Column j of a field belongs to channel j mod channels.
+class TexelsOnDevice : public DeviceMatrix {
+ public:
+  ByteCount bytes() const final;
+  double scale() const final { return scale_; }
+
+ protected:
+  TexelsOnDevice(const std::shared_ptr<GlDevice>& device, Index rows, Index columns,
+                 const KeptApart& kept_apart, RowStrategy strategy);
+
+  Index channels() const { return static_cast<Index>(kept_apart_.size()); }
+  RowStrategy strategy() const { return strategy_; }
+
+  void dispatch(Index columns) const final;
+  /// Y of all columns is what the texels, as parts of scale(), make of X.
+  virtual void dispatch_texels(Index columns) const = 0;
+  /// Where there are none, nothing is dispatched for them.
+  virtual std::size_t texel_bytes() const = 0;
+
+ private:
+  double scale_;
+  RowStrategy strategy_;
+  std::vector<std::unique_ptr<CsrOnDevice>> kept_apart_;
+};
+
+}  // namespace radiosity
