@@ -26,6 +26,16 @@ DeviceUse OnDevice::use() const {
   return use;
 }
 
+std::vector<ResidentProduct::Part> OnDevice::parts_of(const DistinctReflectances& reflectances,
+                                                      Index channels) const {
+  std::vector<ResidentProduct::Part> parts;
+  for (Index distinct = 0; distinct < reflectances.count(); ++distinct)
+    parts.push_back({&matrix(distinct), {}});
+  for (Index channel = 0; channel < channels; ++channel)
+    parts[static_cast<std::size_t>(reflectances.of_channel(channel))].channels.push_back(channel);
+  return parts;
+}
+
 ByteCount OnDevice::bytes_with_diagonals(Index n, Index channels) const {
   ByteCount bytes = matrices_.front()->bytes();
   for (std::size_t other = 1; other < matrices_.size(); ++other) {
@@ -38,9 +48,19 @@ ByteCount OnDevice::bytes_with_diagonals(Index n, Index channels) const {
 }
 
 DeviceKernelOperator::DeviceKernelOperator(const KernelOperator& original,
-                                           std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
+                                           std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin,
+                                           std::vector<Index> order)
     : DeviceOperator(only(std::move(matrix)), std::move(origin), original.root_area(),
-                     original.reflectance()) {}
+                     original.reflectance()),
+      order_(std::move(order)) {}
+
+void DeviceKernelOperator::multiply_kernel(const ConstFieldRef& X, FieldRef Y) const {
+  if (order_.empty()) return matrix().multiply(X, Y);
+  const Field sorted = X(order_, Eigen::all);
+  Field product(X.rows(), X.cols());
+  matrix().multiply(sorted, product);
+  Y(order_, Eigen::all) = product;
+}
 
 std::optional<ResidentProduct> DeviceKernelOperator::resident_product() const {
   ResidentProduct product;
@@ -48,6 +68,7 @@ std::optional<ResidentProduct> DeviceKernelOperator::resident_product() const {
   product.before = root_area().replicate(1, channels());
   product.after = product.before.cwiseInverse();
   product.reflectance = reflectance();
+  product.order = order_;
   return product;
 }
 

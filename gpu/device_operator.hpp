@@ -3,6 +3,7 @@
 #include "gpu/device_matrix.hpp"
 #include "gpu/device_transport.hpp"
 #include "gpu/resident_product.hpp"
+#include "operators/distinct_reflectances.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -51,6 +52,8 @@ class OnDevice {
   const DeviceMatrix& matrix(Index index = 0) const { return *matrices_[static_cast<std::size_t>(index)]; }
   const DeviceOrigin& origin() const { return origin_; }
   DeviceUse use() const;
+  /// Every matrix with the channels of its reflectance, where there is one for each.
+  std::vector<ResidentProduct::Part> parts_of(const DistinctReflectances& reflectances, Index channels) const;
   ByteCount bytes_with_diagonals(Index n, Index channels) const;
 
  private:
@@ -80,14 +83,18 @@ class DeviceOperator : public Base, public OnDevice {
 /// R A^{-1/2} K A^{1/2} with K on the device, its diagonals on the CPU in double precision.
 class DeviceKernelOperator : public DeviceOperator<KernelOperator> {
  public:
-  /// `matrix` is K; areas and reflectances are those of `original`.
+  /// `matrix` is K; areas and reflectances are those of `original`. order[p]: the patch at place p of K;
+  /// empty: patches in their own order.
   DeviceKernelOperator(const KernelOperator& original, std::unique_ptr<DeviceMatrix> matrix,
-                       DeviceOrigin origin);
+                       DeviceOrigin origin, std::vector<Index> order = {});
 
   std::optional<ResidentProduct> resident_product() const override;
 
  protected:
-  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { matrix().multiply(X, Y); }
+  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override;
+
+ private:
+  std::vector<Index> order_;
 };
 
 /// R F with F on the device.

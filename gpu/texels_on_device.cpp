@@ -12,7 +12,7 @@ TexelsOnDevice::TexelsOnDevice(const std::shared_ptr<GlDevice>& device, Index ro
 }
 
 ByteCount TexelsOnDevice::bytes() const {
-  ByteCount bytes{{{"texels", texel_bytes()}, {"exact", 0}, {"indices", 0}}};
+  ByteCount bytes{{{"texels", texel_bytes()}, {"exact", 0}, {"indices", index_bytes()}}};
   for (const auto& matrix : kept_apart_) {
     const ByteCount own = matrix->bytes();
     for (std::size_t part = 0; part < own.parts.size(); ++part)
@@ -22,14 +22,11 @@ ByteCount TexelsOnDevice::bytes() const {
 }
 
 void TexelsOnDevice::dispatch(Index columns) const {
-  const bool texels = texel_bytes() > 0;
-  if (texels) {
-    dispatch_texels(columns);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  }
+  dispatch_texels(columns);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   for (Index channel = 0; channel < channels(); ++channel) {
     const CsrOnDevice& matrix = *kept_apart_[static_cast<std::size_t>(channel)];
-    if (texels)
+    if (has_texels(channel))
       matrix.dispatch_sum(channel, channels(), columns);
     else
       matrix.dispatch_product(channel, channels(), columns);

@@ -31,10 +31,17 @@ class TexelsOnDevice : public DeviceMatrix {
   RowStrategy strategy() const { return strategy_; }
 
   void dispatch(Index columns) const final;
-  /// Y of all columns is what the texels, as parts of scale(), make of X.
+  /// How many of so many columns belong to a channel.
+  Index columns_of(Index channel, Index columns) const {
+    return (columns - channel + channels() - 1) / channels();
+  }
+
+  /// Y, in the columns of channels that have texels, is what those, as parts of scale(), make of X.
   virtual void dispatch_texels(Index columns) const = 0;
-  /// Where there are none, nothing is dispatched for them.
+  virtual bool has_texels(Index) const { return true; }
   virtual std::size_t texel_bytes() const = 0;
+  /// Besides those of what is kept apart.
+  virtual std::size_t index_bytes() const { return 0; }
 
  private:
   double scale_;

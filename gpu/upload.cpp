@@ -4,17 +4,18 @@
 #include "foundation/random.hpp"
 #include "foundation/spec.hpp"
 #include "foundation/stopwatch.hpp"
-#include "gpu/bc4_on_device.hpp"
 #include "gpu/csr_on_device.hpp"
 #include "gpu/dense_on_device.hpp"
 #include "gpu/device_colour_operator.hpp"
 #include "gpu/device_factors_operator.hpp"
 #include "gpu/device_operator.hpp"
+#include "gpu/device_series_operator.hpp"
 #include "gpu/low_rank_on_device.hpp"
 #include "gpu/sampled_texture_on_device.hpp"
 #include "gpu/sampling_difference.hpp"
 #include "gpu/sparse_v_on_device.hpp"
 #include "gpu/texture_on_device.hpp"
+#include "gpu/tiles_on_device.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "operators/sparse_v_operator.hpp"
 #include "operators/stored_matrix.hpp"
@@ -68,6 +69,8 @@ class Uploader {
     if (const auto* stored = dynamic_cast<const HasStoredColours*>(&original_)) return copy_colours(*stored);
     if (const auto* stored = dynamic_cast<const HasCompressedColours*>(&original_))
       return copy_texture(*stored);
+    if (const auto* stored = dynamic_cast<const HasCompressedKernel*>(&original_)) return copy_tiles(*stored);
+    if (const auto* stored = dynamic_cast<const HasStoredSeries*>(&original_)) return copy_series(*stored);
     if (const auto* factors = dynamic_cast<const LowRankOperator<float>*>(&original_))
       return with_factors<DeviceFactorsOperator, LowRankOnDevice>(*factors, factors->left_factor(),
                                                                   factors->right_factor());
@@ -117,10 +120,8 @@ class Uploader {
     if (compressed.texture() != nullptr)
       matrix =
           std::make_unique<TextureOnDevice>(device_, *compressed.texture(), compressed.exact(), strategy_);
-    else if (Bc4OnDevice::takes(compressed.tiles()->front()))
-      matrix = std::make_unique<Bc4OnDevice>(device_, *compressed.tiles(), strategy_);
     else
-      refuse(original_.describe());
+      matrix = std::make_unique<TilesOnDevice>(device_, *compressed.tiles(), strategy_);
     return with_order(std::move(matrix), compressed, origin());
   }
 
@@ -143,6 +144,19 @@ class Uploader {
                                              DeviceOrigin origin) const {
     return std::make_unique<DeviceTextureOperator>(dynamic_cast<const ColourOperator&>(original_),
                                                    std::move(matrix), compressed.order(), std::move(origin));
+  }
+
+  std::unique_ptr<LinearOperator> copy_tiles(const HasCompressedKernel& stored) const {
+    auto matrix =
+        std::make_unique<TilesOnDevice>(device_, std::span(&stored.compressed_kernel(), 1), strategy_);
+    return std::make_unique<DeviceKernelOperator>(dynamic_cast<const KernelOperator&>(original_),
+                                                  std::move(matrix), origin(), stored.kernel_order());
+  }
+
+  std::unique_ptr<LinearOperator> copy_series(const HasStoredSeries& stored) const {
+    std::vector<Copy> matrices;
+    for (const CsrMatrix<float>* matrix : stored.stored_series()) matrices.push_back(copy_matrix(*matrix));
+    return std::make_unique<DeviceSeriesOperator>(stored.reflectance(), std::move(matrices), origin());
   }
 
   std::unique_ptr<LinearOperator> copy_colours(const HasStoredColours& stored) const {
@@ -199,9 +213,11 @@ double allowed_difference(const LinearOperator& original) {
 
 const std::vector<std::string>& uploadable_specs() {
   static const std::vector<std::string> specs = {
-      "dense:f32", "dense:f16",   "csr:f32",       "svd:k=64",      "rsvd:k=64",
-      "qr:k=64",   "2msc:k=64",   "sparse-v:k=64", "cur:k=64",      "wavelet:k=64",
-      "dct:k=64",  "bounces:k=3", "dxt:codec=bc1", "dxt:codec=bc4", "dxt:blocks=texture"};
+      "dense:f32",        "dense:f16",     "csr:f32",       "quantized",          "quantized:bits=8",
+      "quantized:bits=2", "topk",          "svd:k=64",      "rsvd:k=64",          "qr:k=64",
+      "2msc:k=64",        "sparse-v:k=64", "cur:k=64",      "wavelet:k=64",       "dct:k=64",
+      "neumann-sparse",   "bounces:k=3",   "dxt:codec=bc1", "dxt:blocks=texture", "dxt:codec=bc4",
+      "dxt:codec=u8",     "dxt:codec=u4",  "dxt:codec=f16", "dxt:codec=bf16",     "dxt:matrix=kernel"};
   return specs;
 }
 

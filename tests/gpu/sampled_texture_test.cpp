@@ -112,8 +112,8 @@ TEST_F(SampledTextures, ThatLoseTexelsAreFoundOut) {
   }
 }
 
-/// Each texel against what Mesa's decoder and NVIDIA's make of the same block: codes of 8 bits, cut, and
-/// weights of 80.25 / 256 in green.
+/// Each texel against what Mesa's decoder and NVIDIA's make of the same block: codes of 8 bits with weights
+/// of 85/256, cut, and of 80.25/256 in green.
 TEST(SampledTexelBounds, ContainWhatKnownTextureUnitsRound) {
   for (const bool logarithmic : {false, true}) {
     ColourTexture texture(4, 64, 1, {.logarithmic = logarithmic});
@@ -130,9 +130,9 @@ TEST(SampledTexelBounds, ContainWhatKnownTextureUnitsRound) {
       const auto widened = [](Index code) { return static_cast<double>(code << 2 | code >> 4); };
       const double first = widened(17 + 3 * (c / 4));
       const double second = widened(c / 4);
-      const double third = (second - first) / 3;
       const double weight = 80.25 / 256;
-      const double cut[] = {first, second, std::floor(first + third), std::floor(first + 2 * third)};
+      const double cut[] = {first, second, std::floor(first + 85 * (second - first) / 256),
+                            std::floor(first + 170 * (second - first) / 256)};
       const double weighed[] = {first, second, std::floor(first + weight * (second - first) + 0.5),
                                 std::floor(second + weight * (first - second) + 0.5)};
       const auto texel = static_cast<double>(texture.texel(0, c, 0));

@@ -17,8 +17,6 @@ inline std::vector<ShaderVariant> shader_variants() {
   }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
-      variants.push_back({"bc4_product.comp",
-                          {{"COLUMNS", 4}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
       variants.push_back(
           {"csr_rows.comp",
            {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}, {"NARROW", present}, {"ADDS", present}}});
@@ -29,6 +27,17 @@ inline std::vector<ShaderVariant> shader_variants() {
           {"texture_sampled.comp",
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
+  for (const int code : {0, 1, 2, 3, 4, 5})
+    for (const int present : {0, 1})
+      variants.push_back({"tile_product.comp",
+                          {{"COLUMNS", 4},
+                           {"CODE", code},
+                           {"BITS", present == 1 ? 2 : 8},
+                           {"BLOCK", present == 1 ? 16 : 64},
+                           {"LOGARITHMIC", present},
+                           {"SYMMETRIC", present},
+                           {"INVOCATIONS", 64},
+                           {"LANES", present == 1 ? 64 : 1}}});
   for (const int lanes : {1, 32}) variants.push_back({"patch_emission.comp", {{"LANES", lanes}}});
   for (const int layers : {1, 6})
     for (const char* stage : {"shadow.geom", "injection.geom"})
