@@ -25,6 +25,9 @@ class DeviceMatrix {
   /// What it takes of the device's memory, by part.
   virtual ByteCount bytes() const = 0;
 
+  /// Of how many matrices it is made: column j of a field is multiplied with matrix j mod channels().
+  virtual Index channels() const { return 1; }
+
   /// M is this times the stored numbers.
   virtual double scale() const = 0;
   /// Y = M X / scale() for fields that are on the device, laid out as FieldBuffers has them, and other

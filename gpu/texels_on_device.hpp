@@ -17,17 +17,17 @@ struct KeptApart {
 };
 
 /// Compressed matrices on the device, one a channel: texels, which kinds of this decode in shaders of their
-/// own, and what is kept apart. Column j of a field belongs to channel j mod channels.
+/// own, and what is kept apart.
 class TexelsOnDevice : public DeviceMatrix {
  public:
   ByteCount bytes() const final;
   double scale() const final { return scale_; }
+  Index channels() const final { return static_cast<Index>(kept_apart_.size()); }
 
  protected:
   TexelsOnDevice(const std::shared_ptr<GlDevice>& device, Index rows, Index columns,
                  const KeptApart& kept_apart, RowStrategy strategy);
 
-  Index channels() const { return static_cast<Index>(kept_apart_.size()); }
   RowStrategy strategy() const { return strategy_; }
 
   void dispatch(Index columns) const final;

@@ -150,6 +150,24 @@ TEST_F(DeviceUses, OfOperatorsWithoutAFormForTheDeviceAreRefusedWithAListOfThose
     }
 }
 
+/// 64 columns are on the device at a time, and three channels do not divide them.
+TEST_F(LimitedDevice, KeepsTheChannelsOfManyColumnsApart) {
+  constexpr Index n = 70;
+  Eigen::MatrixXd reflectance(n, 3);
+  reflectance << Eigen::VectorXd::Constant(n, 0.2), Eigen::VectorXd::Constant(n, 0.5),
+      Eigen::VectorXd::Constant(n, 0.8);
+  const FormFactors form_factors =
+      symmetric_form_factors(random_kernel(n, 5), Eigen::VectorXd::Ones(n), reflectance);
+  const Field X = Field::Random(n, 3 * 25);
+  for (const char* spec : {"dxt:reorder=none", "dxt:codec=bf16,reorder=none", "dense:f32"}) {
+    Field Y(n, X.cols());
+    Field Z(n, X.cols());
+    cpu_operators().make(spec, form_factors)->apply(X, Y);
+    gl_operators(device(), cpu_operators()).make(spec, form_factors)->apply(X, Z);
+    EXPECT_LE((Y - Z).norm(), 1e-6 * Y.norm()) << spec;
+  }
+}
+
 /// A device that loses one entry of 130 x 130 is found out by the comparison with its original.
 TEST(CompareProducts, RefusesACopyThatComputesSomethingElse) {
   const Index n = 130;
