@@ -1,5 +1,6 @@
 #include "gpu/device_operator.hpp"
 
+#include "operators/closed_operator.hpp"
 #include "operators/reflectance.hpp"
 #include "operators/storage_choice.hpp"
 
@@ -13,8 +14,17 @@ OnDevice::Matrices OnDevice::only(std::unique_ptr<DeviceMatrix> matrix) {
   return matrices;
 }
 
-std::optional<DeviceTransport> OnDevice::transport_on_device() const {
-  const std::optional<ResidentProduct> product = resident_product();
+std::optional<ResidentProduct> resident_product(const LinearOperator& transport) {
+  if (const auto* on_device = dynamic_cast<const OnDevice*>(&transport)) return on_device->resident_product();
+  const auto* other = dynamic_cast<const StandsForKernel*>(&transport);
+  if (other == nullptr) return std::nullopt;
+  std::optional<ResidentProduct> product = resident_product(other->kernel_stood_for());
+  if (product) product->reflectance = dynamic_cast<const KernelOperator&>(transport).reflectance();
+  return product;
+}
+
+std::optional<DeviceTransport> transport_on_device(const LinearOperator& transport) {
+  const std::optional<ResidentProduct> product = resident_product(transport);
   if (!product || product->global || product->parts.size() > 1) return std::nullopt;
   return DeviceTransport{product->parts.front().matrix, product->reflectance.array() * product->after.array(),
                          product->before.array(), product->order};

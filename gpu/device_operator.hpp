@@ -37,10 +37,6 @@ class OnDevice {
   /// Nothing where fields have to come to the CPU.
   virtual std::optional<ResidentProduct> resident_product() const = 0;
 
-  /// The same for solvers that stay on the device, with the reflectances of now; nothing for operators that
-  /// are not T or take more than one matrix.
-  std::optional<DeviceTransport> transport_on_device() const;
-
  protected:
   using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
 
@@ -60,6 +56,14 @@ class OnDevice {
   Matrices matrices_;
   DeviceOrigin origin_;
 };
+
+/// Those parts of an operator that is on a device, or of the kernel there that it stands for (closure=none),
+/// with the reflectances of now; nothing for others.
+std::optional<ResidentProduct> resident_product(const LinearOperator& transport);
+
+/// The same for solvers that stay on the device; nothing for operators that are not T or take more than one
+/// matrix.
+std::optional<DeviceTransport> transport_on_device(const LinearOperator& transport);
 
 /// What is the same in all of them, on top of Base, a kind of LinearOperator: they tell of themselves what
 /// their origin does, but for what they take of the device's memory.

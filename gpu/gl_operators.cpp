@@ -27,9 +27,9 @@ Placement take_placement(Spec& spec) {
                                                                               : Placement::device;
 }
 
-/// Of those that have blocks.
+/// Of those that have blocks; the key is another one with closure=blocks.
 BlockPlacement take_blocks(Spec& spec) {
-  if (spec.name() != "dxt") return BlockPlacement::buffer;
+  if (spec.name() != "dxt" || spec.text("closure", "none") == "blocks") return BlockPlacement::buffer;
   return spec.choice("blocks", "buffer", {"buffer", "texture"}) == "texture" ? BlockPlacement::texture
                                                                              : BlockPlacement::buffer;
 }
