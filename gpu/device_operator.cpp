@@ -15,7 +15,8 @@ OnDevice::Matrices OnDevice::only(std::unique_ptr<DeviceMatrix> matrix) {
 }
 
 std::optional<ResidentProduct> resident_product(const LinearOperator& transport) {
-  if (const auto* on_device = dynamic_cast<const OnDevice*>(&transport)) return on_device->resident_product();
+  if (const auto* on_device = dynamic_cast<const OnDevice*>(&transport))
+    return on_device->in_double() ? std::nullopt : on_device->resident_product();
   const auto* other = dynamic_cast<const StandsForKernel*>(&transport);
   if (other == nullptr) return std::nullopt;
   std::optional<ResidentProduct> product = resident_product(other->kernel_stood_for());

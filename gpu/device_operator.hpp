@@ -32,6 +32,8 @@ class OnDevice {
   virtual ~OnDevice() = default;
   /// Found when it is compared with the CPU's (DeviceUse::difference_max).
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
+  /// Fields have to come to the CPU then.
+  bool in_double() const { return matrix().in_double(); }
   const Eigen::MatrixXd& decoding_difference() const { return origin_.decoding_difference; }
   /// Its parts, for whoever multiplies fields that are on the device already; they live as long as it does.
   /// Nothing where fields have to come to the CPU.
@@ -73,7 +75,7 @@ class DeviceOperator : public Base, public OnDevice {
   ByteCount bytes() const final { return bytes_with_diagonals(this->size(), this->channels()); }
   std::string describe() const final { return origin().spec; }
   std::string remark() const final { return origin().remark; }
-  double product_roundoff() const final { return 0x1p-24; }
+  double product_roundoff() const final { return matrix().in_double() ? 0x1p-53 : 0x1p-24; }
   Certificate certificate() const final { return origin().certificate; }
   std::optional<DeviceUse> device_use() const final { return use(); }
 

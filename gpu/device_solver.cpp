@@ -27,8 +27,9 @@ bool solvable_on_device(const LinearOperator& transport) {
 DeviceSolver::DeviceSolver(const std::string& name, const SolverProblem& problem)
     : SteppedSolver(name, problem) {
   if (!solvable_on_device(problem.transport))
-    fail<UsageError>("{}:fields=device: {} has no form in one piece on a device: take fields=cpu", name,
-                     problem.transport.describe());
+    fail<UsageError>(
+        "{}:fields=device: {} has no form in one piece and in float32 on a device: take fields=cpu", name,
+        problem.transport.describe());
 }
 
 void DeviceSolver::begin() {

@@ -22,6 +22,7 @@ ResidentProduct require_product(const LinearOperator& transport) {
   if (!product)
     fail<UsageError>(
         "{} cannot take fields that are on the device already: use an operator that runs there as a whole, "
+        "in float32, "
         "without a closure (closure=none; form factors are closed before)",
         transport.describe());
   return *std::move(product);

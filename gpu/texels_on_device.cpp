@@ -8,7 +8,7 @@ TexelsOnDevice::TexelsOnDevice(const std::shared_ptr<GlDevice>& device, Index ro
                                const KeptApart& kept_apart, RowStrategy strategy)
     : DeviceMatrix(device, rows, columns), scale_(kept_apart.scale), strategy_(strategy) {
   for (const CsrMatrix<float>& matrix : kept_apart.channels)
-    kept_apart_.push_back(std::make_unique<CsrOnDevice>(device, matrix, strategy));
+    kept_apart_.push_back(std::make_unique<CsrOnDevice<float>>(device, matrix, strategy));
 }
 
 ByteCount TexelsOnDevice::bytes() const {
@@ -25,7 +25,7 @@ void TexelsOnDevice::dispatch(Index columns) const {
   dispatch_texels(columns);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   for (Index channel = 0; channel < channels(); ++channel) {
-    const CsrOnDevice& matrix = *kept_apart_[static_cast<std::size_t>(channel)];
+    const CsrOnDevice<float>& matrix = *kept_apart_[static_cast<std::size_t>(channel)];
     if (has_texels(channel))
       matrix.dispatch_sum(channel, channels(), columns);
     else

@@ -46,7 +46,7 @@ class TexelsOnDevice : public DeviceMatrix {
  private:
   double scale_;
   RowStrategy strategy_;
-  std::vector<std::unique_ptr<CsrOnDevice>> kept_apart_;
+  std::vector<std::unique_ptr<CsrOnDevice<float>>> kept_apart_;
 };
 
 }  // namespace radiosity

@@ -169,17 +169,19 @@ class Uploader {
   Copy copy_stored(const StoredMatrix& stored) const {
     return std::visit([this](const auto* matrix) { return copy_matrix(*matrix); }, stored);
   }
-  Copy copy_matrix(const SymmetricTiles<float>& kernel) const { return dense(kernel); }
-  Copy copy_matrix(const SymmetricTiles<Half>& kernel) const { return dense(kernel); }
-  Copy copy_matrix(const RowMajorMatrix<float>& matrix) const { return dense(matrix); }
-  Copy copy_matrix(const RowMajorMatrix<Half>& matrix) const { return dense(matrix); }
-  Copy copy_matrix(const CsrMatrix<float>& matrix) const {
-    return std::make_unique<CsrOnDevice>(device_, matrix, strategy_);
+  template <typename Scalar>
+  Copy copy_matrix(const SymmetricTiles<Scalar>& kernel) const {
+    return dense(kernel);
   }
-  /// Double precision is not for the device: few graphics cards are fast at it.
-  template <typename Other>
-  Copy copy_matrix(const Other&) const {
-    refuse(original_.describe());
+  template <typename Scalar>
+  Copy copy_matrix(const RowMajorMatrix<Scalar>& matrix) const {
+    return dense(matrix);
+  }
+  Copy copy_matrix(const CsrMatrix<float>& matrix) const {
+    return std::make_unique<CsrOnDevice<float>>(device_, matrix, strategy_);
+  }
+  Copy copy_matrix(const CsrMatrix<double>& matrix) const {
+    return std::make_unique<CsrOnDevice<double>>(device_, matrix, strategy_);
   }
   template <template <typename> class Matrix, typename Scalar>
   Copy dense(const Matrix<Scalar>& matrix) const {
@@ -204,20 +206,24 @@ class Uploader {
   Stopwatch watch_;
 };
 
-/// Both products are within 2 (n + 8) u |A| |X| of the true one; factors may have signs, whose terms cancel.
-double allowed_difference(const LinearOperator& original) {
-  return std::max(4 * (static_cast<double>(original.size()) + 8) * 0x1p-24, 1e-4);
+/// Both products are within 2 (n + 8) u |A| |X| of the true one; factors, which are in float32, may have
+/// signs, whose terms cancel.
+double allowed_difference(const LinearOperator& original, const LinearOperator& copy) {
+  const double roundoff = std::max(original.product_roundoff(), copy.product_roundoff());
+  const double rounding = 4 * (static_cast<double>(copy.size()) + 8) * roundoff;
+  return roundoff < 0x1p-24 ? rounding : std::max(rounding, 1e-4);
 }
 
 }  // namespace
 
 const std::vector<std::string>& uploadable_specs() {
   static const std::vector<std::string> specs = {
-      "dense:f32",        "dense:f16",     "csr:f32",       "quantized",          "quantized:bits=8",
-      "quantized:bits=2", "topk",          "svd:k=64",      "rsvd:k=64",          "qr:k=64",
-      "2msc:k=64",        "sparse-v:k=64", "cur:k=64",      "wavelet:k=64",       "dct:k=64",
-      "neumann-sparse",   "bounces:k=3",   "dxt:codec=bc1", "dxt:blocks=texture", "dxt:codec=bc4",
-      "dxt:codec=u8",     "dxt:codec=u4",  "dxt:codec=f16", "dxt:codec=bf16",     "dxt:matrix=kernel"};
+      "dense:f64",          "dense:f32",        "dense:f16",        "csr:f64",       "csr:f32",
+      "quantized",          "quantized:bits=8", "quantized:bits=2", "topk",          "svd:k=64",
+      "rsvd:k=64",          "qr:k=64",          "2msc:k=64",        "sparse-v:k=64", "cur:k=64",
+      "wavelet:k=64",       "dct:k=64",         "neumann-sparse",   "bounces:k=3",   "dxt:codec=bc1",
+      "dxt:blocks=texture", "dxt:codec=bc4",    "dxt:codec=u8",     "dxt:codec=u4",  "dxt:codec=f16",
+      "dxt:codec=bf16",     "dxt:matrix=kernel"};
   return specs;
 }
 
@@ -241,7 +247,7 @@ double compare_products(const LinearOperator& original, const LinearOperator& co
   const double largest = Y.cwiseAbs().maxCoeff();
   const double difference = (Z - Y).cwiseAbs().maxCoeff();
   Eigen::ArrayXXd limits =
-      Eigen::ArrayXXd::Constant(Y.rows(), Y.cols(), allowed_difference(original) * largest);
+      Eigen::ArrayXXd::Constant(Y.rows(), Y.cols(), allowed_difference(original, copy) * largest);
   if (allowed.size() > 0) limits += allowed.array();
   if (!((Z - Y).cwiseAbs().array() <= limits).all())
     fail(

@@ -29,7 +29,7 @@ std::unique_ptr<LinearOperator> upload(const std::shared_ptr<GlDevice>& device,
 
 /// The largest |difference| of a component of their products with a random field, all of whose components are
 /// in [0, 1), relative to the largest component. Throws Error, naming the renderer, where one of a component
-/// is more than the rounding of float32 products and `allowed` (n x channels; empty: 0).
+/// is more than the rounding of products and `allowed` (n x channels; empty: 0).
 double compare_products(const LinearOperator& original, const LinearOperator& copy,
                         const std::string& renderer, const Eigen::MatrixXd& allowed = {});
 

@@ -32,9 +32,9 @@ const uint PAIRS_OF_STEPS = 16 * STEPS_OF_ROW;
 const uint PAIRS_OF_TILE = PAIRS_OF_STEPS + 64 * BITS;
 const uint ROWS_OF_WORD = 32 / BITS;
 
-float step_of(uint tile, uint place) {
-  uvec2 four = pairs[tile * PAIRS_OF_TILE + place / 4];
-  vec2 two = unpackHalf2x16(place % 4 < 2 ? four.x : four.y);
+// One of the four in a pair of words.
+float half_of(uvec2 four, uint place) {
+  vec2 two = unpackHalf2x16(place < 2 ? four.x : four.y);
   return place % 2 == 0 ? two.x : two.y;
 }
 
@@ -43,7 +43,8 @@ mat4 block_numbers(uint tile, uint row, uint column) {
   uvec4 words = uvec4(pairs[first], pairs[first + 1]) >> (4 * row % ROWS_OF_WORD * BITS);
   mat4 numbers;
   for (uint i = 0; i < 4; ++i) {
-    float step = step_of(tile, (4 * row + i) * STEPS_OF_ROW + 4 * column / BLOCK);
+    uvec2 four_steps = pairs[tile * PAIRS_OF_TILE + row * STEPS_OF_ROW + i * STEPS_OF_ROW / 4];
+    float step = half_of(four_steps, (i * STEPS_OF_ROW + 4 * column / BLOCK) % 4);
     numbers[i] = vec4(words >> (i * BITS) & ((1u << BITS) - 1)) * step;
   }
   return numbers;

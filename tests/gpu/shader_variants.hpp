@@ -17,9 +17,13 @@ inline std::vector<ShaderVariant> shader_variants() {
   }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
-      variants.push_back(
-          {"csr_rows.comp",
-           {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}, {"NARROW", present}, {"ADDS", present}}});
+      variants.push_back({"csr_rows.comp",
+                          {{"COLUMNS", 4},
+                           {"INVOCATIONS", 128},
+                           {"LANES", lanes},
+                           {"DOUBLE", 1 - present},
+                           {"NARROW", present},
+                           {"ADDS", present}}});
       variants.push_back(
           {"texture_product.comp",
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
@@ -45,6 +49,8 @@ inline std::vector<ShaderVariant> shader_variants() {
   for (const char* plain : {"vertex_light.comp", "shadow.vert", "shadow.frag", "frame.vert", "frame.frag",
                             "injection.frag", "injection_sums.comp", "injection_emission.comp"})
     variants.push_back({plain, {}});
+  for (const int lanes : {1, 16})
+    variants.push_back({"dense_double.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
   variants.push_back({"tall_transposed_wide.comp", {{"COLUMNS", 4}, {"SHARE", 2}}});
   variants.push_back({"tall_product_wide.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
