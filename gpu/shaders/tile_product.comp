@@ -26,6 +26,9 @@ void write_sum(uint c, uint row, float sum) {
   y[place] = before + uintBitsToFloat(scale_bits) * sum;
 }
 
+// Invocations that walk along one tile.
+const uint TOGETHER = LANES < 16 ? LANES : 16;
+
 void main() {
   uint lane = gl_LocalInvocationID.x % LANES;
   uint block_row = group_index() * (INVOCATIONS / LANES) + gl_LocalInvocationID.x / LANES;
@@ -34,24 +37,25 @@ void main() {
   uint own = block_row % 16;
   vec4 sum[COLUMNS];
   for (uint c = 0; c < COLUMNS; ++c) sum[c] = vec4(0);
-  uint end = present ? 16 * row_begin[tile_row + 1] : 0;
-  for (uint i = present ? 16 * row_begin[tile_row] + lane : 0; i < end; i += LANES) {
-    uvec2 place = places[i / 16];
-    uint other = i % 16;
-    uint part_of_x = place.y / 2 * 16 + other;
+  uint end = present ? row_begin[tile_row + 1] : 0;
+  for (uint k = present ? row_begin[tile_row] + lane / TOGETHER : 0; k < end; k += LANES / TOGETHER) {
+    uvec2 place = places[k];
+    uint tile_column = place.y / 2;
+    for (uint other = lane % TOGETHER; other < 16; other += TOGETHER) {
 #if SYMMETRIC
-    bool transposed = place.y % 2 == 1;
-    mat4 numbers = block_numbers(place.x, transposed ? other : own, transposed ? own : other);
+      bool transposed = place.y % 2 == 1;
+      mat4 numbers = block_numbers(place.x, transposed ? other : own, transposed ? own : other);
 #else
-    mat4 numbers = block_numbers(place.x, own, other);
+      mat4 numbers = block_numbers(place.x, own, other);
 #endif
-    for (uint c = 0; c < COLUMNS; ++c) {
-      vec4 part = x[(first_column + c * column_step) * tile_rows * 16 + part_of_x];
+      for (uint c = 0; c < COLUMNS; ++c) {
+        vec4 part = x[((first_column + c * column_step) * tile_rows + tile_column) * 16 + other];
 #if SYMMETRIC
-      sum[c] += transposed ? numbers * part : part * numbers;
+        sum[c] += transposed ? numbers * part : part * numbers;
 #else
-      sum[c] += part * numbers;
+        sum[c] += part * numbers;
 #endif
+      }
     }
   }
   write_four_rows(sum, present, block_row * 4);
