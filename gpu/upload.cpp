@@ -16,6 +16,7 @@
 #include "gpu/sparse_v_on_device.hpp"
 #include "gpu/texture_on_device.hpp"
 #include "gpu/tiles_on_device.hpp"
+#include "gpu/two_sided_factors.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "operators/sparse_v_operator.hpp"
 #include "operators/stored_matrix.hpp"
@@ -80,6 +81,9 @@ class Uploader {
     if (const auto* factors = dynamic_cast<const LowRankKernelOperator<float>*>(&original_))
       return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, factors->factor(),
                                                                         factors->values());
+    if (const auto* factors = dynamic_cast<const TwoSidedOperator<float>*>(&original_))
+      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, full_left_factor(*factors),
+                                                                        full_right_factor(*factors));
     refuse(original_.describe());
   }
 
@@ -217,13 +221,34 @@ double allowed_difference(const LinearOperator& original, const LinearOperator& 
 }  // namespace
 
 const std::vector<std::string>& uploadable_specs() {
-  static const std::vector<std::string> specs = {
-      "dense:f64",          "dense:f32",        "dense:f16",        "csr:f64",       "csr:f32",
-      "quantized",          "quantized:bits=8", "quantized:bits=2", "topk",          "svd:k=64",
-      "rsvd:k=64",          "qr:k=64",          "2msc:k=64",        "sparse-v:k=64", "cur:k=64",
-      "wavelet:k=64",       "dct:k=64",         "neumann-sparse",   "bounces:k=3",   "dxt:codec=bc1",
-      "dxt:blocks=texture", "dxt:codec=bc4",    "dxt:codec=u8",     "dxt:codec=u4",  "dxt:codec=f16",
-      "dxt:codec=bf16",     "dxt:matrix=kernel"};
+  static const std::vector<std::string> specs = {"dense:f64",
+                                                 "dense:f32",
+                                                 "dense:f16",
+                                                 "csr:f64",
+                                                 "csr:f32",
+                                                 "quantized",
+                                                 "quantized:bits=8",
+                                                 "quantized:bits=2",
+                                                 "topk",
+                                                 "svd:k=64",
+                                                 "rsvd:k=64",
+                                                 "qr:k=64",
+                                                 "2msc:k=64",
+                                                 "2msc:k=64,sides=two",
+                                                 "sparse-v:k=64",
+                                                 "cur:k=64",
+                                                 "wavelet:k=64",
+                                                 "dct:k=64",
+                                                 "neumann-sparse",
+                                                 "bounces:k=3",
+                                                 "dxt:codec=bc1",
+                                                 "dxt:blocks=texture",
+                                                 "dxt:codec=bc4",
+                                                 "dxt:codec=u8",
+                                                 "dxt:codec=u4",
+                                                 "dxt:codec=f16",
+                                                 "dxt:codec=bf16",
+                                                 "dxt:matrix=kernel"};
   return specs;
 }
 

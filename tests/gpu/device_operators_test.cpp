@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <vector>
 
 namespace radiosity {
 namespace {
@@ -141,6 +142,21 @@ TEST_F(DeviceUses, TakeAFairPartOfTheTimeOfALargeProduct) {
   EXPECT_GT(on_device, 0.05 * in_all);
 }
 
+/// Each is compared with the CPU's product when it is copied.
+TEST_F(DeviceUses, AreThereForEveryOperatorOfTheRegistryAndForWhatIsSaidToBeTaken) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  const FormFactors form_factors = random_room(70);
+  std::vector<std::string> specs = uploadable_specs();
+  for (const OperatorEntry& entry : registry.entries()) {
+    specs.push_back(entry.defaults);
+    specs.insert(specs.end(), entry.variants.begin(), entry.variants.end());
+  }
+  for (const std::string& spec : specs) {
+    if (spec.find("global=1") != std::string::npos) continue;  // its factors are on the CPU
+    EXPECT_TRUE(registry.make(spec, form_factors)->device_use().has_value()) << spec;
+  }
+}
+
 TEST_F(DeviceUses, OfOperatorsWithoutAFormForTheDeviceAreRefusedWithAListOfThoseThatHaveOne) {
   const auto registry = gl_operators(device(), cpu_operators());
   for (const char* spec : {"svd:k=2,storage=f64", "qr:k=2,storage=f64"}) try {
@@ -222,7 +238,7 @@ std::string spec_name(const testing::TestParamInfo<std::string>& info) {
 
 /// Whether operators of a spec are made of symmetric kernels alone.
 bool takes_symmetric_kernels_alone(const std::string& spec) {
-  for (const char* part : {"norm=area", "quantized", "topk", "matrix=kernel"})
+  for (const char* part : {"norm=area", "sides=two", "quantized", "topk", "matrix=kernel"})
     if (spec.find(part) != std::string::npos) return true;
   return false;
 }
@@ -280,7 +296,8 @@ INSTANTIATE_TEST_SUITE_P(Stored, DeviceOperators,
 INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
                          testing::Values("svd:k=8,strategy=group", "svd:k=9,strategy=invocation",
                                          "svd:k=19,norm=area,method=lanczos,strategy=invocation", "2msc:k=8",
-                                         "sparse-v:k=8,strategy=group", "sparse-v:k=7,strategy=invocation",
+                                         "2msc:k=9,sides=two,strategy=group", "sparse-v:k=8,strategy=group",
+                                         "sparse-v:k=7,strategy=invocation",
                                          "svd:k=8,strategy=group,placement=hybrid",
                                          "sparse-v:k=7,strategy=invocation,placement=hybrid"),
                          spec_name);
