@@ -12,11 +12,11 @@ namespace radiosity {
 ///
 ///   2/255 + 0.03 |first - second|
 ///
-/// at most. The extension (EXT_texture_compression_s3tc) gives formulas and no tolerance. Units round the two
-/// codes to 8 bits (0.7/255) and cut what lies between them (1/255), which is 2/255, and some weigh the two
-/// with other numbers than thirds, which Direct3D allows the same units up to 0.03 of their distance
-/// (Direct3D 11.3 functional specification, section 19.5.2, which has 1/255 for the rest). 0 stays 0, and
-/// between 0 and 0 as well: every unit known to us interpolates so.
+/// at most. The extension (EXT_texture_compression_s3tc) gives formulas and no tolerance. Units widen the two
+/// codes to 8 bits (0.7/255) and may cut what lies between them (1/255), which is 2/255, and some weigh the
+/// two with other numbers than thirds, which Direct3D allows the same units up to 0.03 of their distance
+/// (Direct3D 11.3 functional specification, 19.5.2, which has 1/255 for the rest and asks that what is
+/// exactly 0 stays 0).
 constexpr double sampled_code_difference(double first, double second) {
   const double distance = first > second ? first - second : second - first;
   return 2.0 / 255 + 0.03 * distance;
