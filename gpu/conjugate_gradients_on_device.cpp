@@ -12,17 +12,17 @@ constexpr unsigned length_binding = 1;
 constexpr unsigned conjugation_binding = 2;
 
 /// S = R^{1/2} K R^{1/2}.
-DeviceTransport symmetric_form(const DeviceMatrix& kernel, const KernelOperator& original) {
+DeviceTransport symmetric_form(const DeviceTransport& on_device, const KernelOperator& original) {
   const Eigen::ArrayXXd root = original.reflectance().array().sqrt();
-  return {&kernel, root, root};
+  return {on_device.matrix, root, root, on_device.order};
 }
 
 }  // namespace
 
-ConjugateGradientsOnDevice::ConjugateGradientsOnDevice(const DeviceMatrix& kernel,
+ConjugateGradientsOnDevice::ConjugateGradientsOnDevice(const DeviceTransport& on_device,
                                                        const KernelOperator& original,
                                                        std::optional<RowStrategy> strategy)
-    : DeviceIteration(symmetric_form(kernel, original), original.root_area(), strategy),
+    : DeviceIteration(symmetric_form(on_device, original), original.root_area(), strategy),
       root_reflectance_(original.reflectance().array().sqrt()) {
   const CurrentContext current(*device().context());
   image_ = &fields_program("cg_image.comp", 1);
@@ -39,7 +39,7 @@ void ConjugateGradientsOnDevice::reserve(Index columns) {
 }
 
 void ConjugateGradientsOnDevice::begin(const Field& R) {
-  fields_->x.write(root_area().asDiagonal() * R);
+  fields_->x.write(sorted(root_area().asDiagonal() * R));
   fields_->direction.clear();
   fields_->solution.clear();
   fields_->residual.clear();
@@ -65,7 +65,7 @@ void ConjugateGradientsOnDevice::iterate(bool starting) const {
 
 Field ConjugateGradientsOnDevice::result(const Field& R) const {
   const Eigen::ArrayXXd reflected =
-      root_reflectance_.replicate(1, R.cols() / channels()) * fields_->solution.read().array();
+      root_reflectance_.replicate(1, R.cols() / channels()) * by_patch(fields_->solution.read()).array();
   return R.array() + reflected.colwise() / root_area().array();
 }
 

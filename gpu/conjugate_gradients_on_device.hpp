@@ -12,8 +12,8 @@ namespace radiosity {
 /// Step lengths are computed there too.
 class ConjugateGradientsOnDevice final : public DeviceIteration {
  public:
-  /// `kernel` is K on the device, `original` has its diagonals.
-  ConjugateGradientsOnDevice(const DeviceMatrix& kernel, const KernelOperator& original,
+  /// `on_device` has K and the order of its rows, `original` its diagonals.
+  ConjugateGradientsOnDevice(const DeviceTransport& on_device, const KernelOperator& original,
                              std::optional<RowStrategy> strategy = {});
 
   int starting_products() const override { return 1; }

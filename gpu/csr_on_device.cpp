@@ -23,22 +23,25 @@ const RowSharing& sharing_of(RowStrategy strategy) {
   return strategy == RowStrategy::group ? shared_rows : single_rows;
 }
 
-ShaderFamily shaders_of_rows(RowStrategy strategy, bool narrow, bool adds) {
+ShaderFamily shaders_of_rows(RowStrategy strategy, bool in_double, bool narrow, bool adds) {
   const RowSharing& sharing = sharing_of(strategy);
   return {"csr_rows.comp",
           {{"INVOCATIONS", sharing.invocations},
            {"LANES", sharing.lanes},
+           {"DOUBLE", in_double ? 1 : 0},
            {"NARROW", narrow ? 1 : 0},
            {"ADDS", adds ? 1 : 0}}};
 }
 
-std::int64_t begin_of(const CsrMatrix<float>& matrix, Index row) {
+template <typename Scalar>
+std::int64_t begin_of(const CsrMatrix<Scalar>& matrix, Index row) {
   return matrix.row_begin[static_cast<std::size_t>(row)];
 }
 
 /// The row after the last of those from `first` on whose entries and offsets fit into a storage block.
-Index end_of_block(const CsrMatrix<float>& matrix, Index first, const GlContext& context) {
-  const std::int64_t most = context.limits().storage_block_bytes / 4;
+template <typename Scalar>
+Index end_of_block(const CsrMatrix<Scalar>& matrix, Index first, const GlContext& context) {
+  const std::int64_t most = context.limits().storage_block_bytes / static_cast<std::int64_t>(sizeof(Scalar));
   const auto from = matrix.row_begin.begin() + first;
   const auto beyond = std::upper_bound(from, matrix.row_begin.end(), *from + most);
   const Index end = std::min<Index>((beyond - matrix.row_begin.begin()) - 1, first + most - 1);
@@ -58,13 +61,14 @@ GlBuffer buffer_of(const std::shared_ptr<const GlContext>& context, const Number
 
 }  // namespace
 
-CsrOnDevice::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMatrix<float>& matrix,
-                         RowStrategy strategy)
+template <typename Scalar>
+CsrOnDevice<Scalar>::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMatrix<Scalar>& matrix,
+                                 RowStrategy strategy)
     : DeviceMatrix(std::move(device_of_matrix), matrix.rows(), matrix.cols),
       strategy_(strategy),
       narrow_(matrix.cols <= 65536),
-      product_(shaders_of_rows(strategy, narrow_, false)),
-      sum_(shaders_of_rows(strategy, narrow_, true)) {
+      product_(shaders_of_rows(strategy, in_double(), narrow_, false)),
+      sum_(shaders_of_rows(strategy, in_double(), narrow_, true)) {
   const GlContext& context = *device().context();
   const CurrentContext current(context);
   for (Index first = 0; first < rows();) {
@@ -75,7 +79,8 @@ CsrOnDevice::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMa
   context.check("sending a sparse matrix");
 }
 
-void CsrOnDevice::upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row) {
+template <typename Scalar>
+void CsrOnDevice<Scalar>::upload_block(const CsrMatrix<Scalar>& matrix, Index first_row, Index end_row) {
   const auto& context = device().context();
   const std::int64_t first = begin_of(matrix, first_row);
   const auto count = static_cast<std::size_t>(begin_of(matrix, end_row) - first);
@@ -87,14 +92,16 @@ void CsrOnDevice::upload_block(const CsrMatrix<float>& matrix, Index first_row, 
                      buffer_of(context, row_begin.data(), row_begin.size())});
 }
 
-GlBuffer CsrOnDevice::upload_columns(const std::int32_t* columns, std::size_t count) const {
+template <typename Scalar>
+GlBuffer CsrOnDevice<Scalar>::upload_columns(const std::int32_t* columns, std::size_t count) const {
   if (!narrow_) return buffer_of(device().context(), columns, count);
   std::vector<std::uint16_t> narrow(columns, columns + count);
   narrow.resize(count + count % 2);  // shaders read two at a time
   return buffer_of(device().context(), narrow.data(), narrow.size());
 }
 
-ByteCount CsrOnDevice::bytes() const {
+template <typename Scalar>
+ByteCount CsrOnDevice<Scalar>::bytes() const {
   std::size_t entries = 0;
   std::size_t indices = 0;
   for (const Block& block : blocks_) {
@@ -104,15 +111,24 @@ ByteCount CsrOnDevice::bytes() const {
   return {{{"entries", entries}, {"indices", indices}}};
 }
 
-void CsrOnDevice::dispatch(Index columns) const {
-  dispatch_rows(product_, 0, 1, columns);
+template <typename Scalar>
+void CsrOnDevice<Scalar>::dispatch(Index columns) const {
+  dispatch_product(0, 1, columns);
 }
 
-void CsrOnDevice::dispatch_sum(Index first, Index step, Index columns) const {
+template <typename Scalar>
+void CsrOnDevice<Scalar>::dispatch_product(Index first, Index step, Index columns) const {
+  dispatch_rows(product_, first, step, (columns - first + step - 1) / step);
+}
+
+template <typename Scalar>
+void CsrOnDevice<Scalar>::dispatch_sum(Index first, Index step, Index columns) const {
   dispatch_rows(sum_, first, step, (columns - first + step - 1) / step);
 }
 
-void CsrOnDevice::dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const {
+template <typename Scalar>
+void CsrOnDevice<Scalar>::dispatch_rows(const ShaderFamily& shaders, Index first, Index step,
+                                        Index count) const {
   const Index rows_together = sharing_of(strategy_).invocations / sharing_of(strategy_).lanes;
   for (const Block& block : blocks_) {
     block.values.bind(values_binding);
@@ -129,5 +145,8 @@ void CsrOnDevice::dispatch_rows(const ShaderFamily& shaders, Index first, Index 
     });
   }
 }
+
+template class CsrOnDevice<double>;
+template class CsrOnDevice<float>;
 
 }  // namespace radiosity

@@ -5,23 +5,27 @@
 #include "kernels/csr_matrix.hpp"
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace radiosity {
 
-/// A sparse matrix by compressed rows on the device, in float32 with columns in 16 bits up to 65536 of them,
-/// split by rows where its entries take more than a storage block.
+/// A sparse matrix by compressed rows on the device, in double or float32, with columns in 16 bits up to
+/// 65536 of them, split by rows where its entries take more than a storage block.
+template <typename Scalar>
 class CsrOnDevice final : public DeviceMatrix {
  public:
   /// Copies the matrix. Throws Error where a row does not fit into a storage block, or the matrix not into
   /// the device.
-  CsrOnDevice(std::shared_ptr<GlDevice> device, const CsrMatrix<float>& matrix, RowStrategy strategy);
+  CsrOnDevice(std::shared_ptr<GlDevice> device, const CsrMatrix<Scalar>& matrix, RowStrategy strategy);
 
   ByteCount bytes() const override;
   double scale() const override { return 1; }
+  bool in_double() const override { return std::is_same_v<Scalar, double>; }
 
-  /// Y += M X, both bound as FieldBuffers says, for the columns first, first + step, ... below `columns`: for
-  /// matrices that are a part of another.
+  /// Y = M X and Y += M X, both bound as FieldBuffers says, for the columns first, first + step, ... below
+  /// `columns`: for matrices that are a part of another.
+  void dispatch_product(Index first, Index step, Index columns) const;
   void dispatch_sum(Index first, Index step, Index columns) const;
 
   /// Over how many storage blocks it is split.
@@ -38,7 +42,7 @@ class CsrOnDevice final : public DeviceMatrix {
     GlBuffer columns;
     GlBuffer row_begin;  ///< rows + 1 numbers, from the block's first entry on
   };
-  void upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row);
+  void upload_block(const CsrMatrix<Scalar>& matrix, Index first_row, Index end_row);
   GlBuffer upload_columns(const std::int32_t* columns, std::size_t count) const;
   /// For `count` columns first, first + step, ...
   void dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const;
@@ -49,5 +53,8 @@ class CsrOnDevice final : public DeviceMatrix {
   ShaderFamily sum_;  ///< Y += M X
   std::vector<Block> blocks_;
 };
+
+extern template class CsrOnDevice<double>;
+extern template class CsrOnDevice<float>;
 
 }  // namespace radiosity

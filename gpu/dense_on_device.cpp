@@ -14,8 +14,16 @@ constexpr int rows_of_group = 4;
 constexpr int invocations_of_group = 128;
 constexpr int rows_of_invocation = 4;
 
+/// In double precision LANES share a row.
+constexpr int invocations_of_double_group = 64;
+constexpr int lanes_in_double = 16;
+
 template <typename Scalar>
 ShaderFamily shaders_for(RowStrategy strategy) {
+  if constexpr (std::is_same_v<Scalar, double>)
+    return {"dense_double.comp",
+            {{"INVOCATIONS", invocations_of_double_group},
+             {"LANES", strategy == RowStrategy::group ? lanes_in_double : 1}}};
   const int half = std::is_same_v<Scalar, Half> ? 1 : 0;
   if (strategy == RowStrategy::group)
     return {"dense_group.comp",
@@ -89,7 +97,8 @@ ByteCount DenseOnDevice<Scalar>::bytes() const {
 
 template <typename Scalar>
 void DenseOnDevice<Scalar>::dispatch(Index columns) const {
-  const Index rows_together = strategy_ == RowStrategy::group ? rows_of_group : strip_rows;
+  const Index rows_of_shared = in_double() ? invocations_of_double_group / lanes_in_double : rows_of_group;
+  const Index rows_together = strategy_ == RowStrategy::group ? rows_of_shared : strip_rows;
   for (const StoredRows::Part& part : strips_.parts()) {
     part.buffer.bind(entries_binding);
     shaders_.for_columns(device(), columns, [&](const GlProgram& program, Index first_column) {
@@ -103,6 +112,7 @@ void DenseOnDevice<Scalar>::dispatch(Index columns) const {
   }
 }
 
+template class DenseOnDevice<double>;
 template class DenseOnDevice<float>;
 template class DenseOnDevice<Half>;
 

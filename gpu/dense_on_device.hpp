@@ -7,9 +7,12 @@
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
 
+#include <type_traits>
+
 namespace radiosity {
 
-/// Every entry of a matrix on the device, by rows padded to a multiple of 64 numbers, in float32 or binary16.
+/// Every entry of a matrix on the device, by rows padded to a multiple of 64 numbers, in double, float32 or
+/// binary16.
 /// A symmetric kernel is stored in full, both halves and its zero tiles: twice the memory, but every product
 /// reads each row as one stream and needs no atomic sums. Rows are split over as many storage blocks as the
 /// driver's limit asks for.
@@ -23,6 +26,7 @@ class DenseOnDevice final : public DeviceMatrix {
 
   ByteCount bytes() const override;
   double scale() const override { return scale_; }
+  bool in_double() const override { return std::is_same_v<Scalar, double>; }
   /// Over how many storage blocks it is split.
   std::size_t blocks() const { return strips_.parts().size(); }
 
@@ -40,6 +44,7 @@ class DenseOnDevice final : public DeviceMatrix {
   StoredRows strips_;  ///< of 64 rows each, padding included
 };
 
+extern template class DenseOnDevice<double>;
 extern template class DenseOnDevice<float>;
 extern template class DenseOnDevice<Half>;
 

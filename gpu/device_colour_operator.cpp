@@ -46,11 +46,7 @@ void DeviceBouncesOperator::multiply_colours(const ConstFieldRef& X, FieldRef Y)
 
 std::optional<ResidentProduct> DeviceBouncesOperator::resident_product() const {
   ResidentProduct product = resident_diagonals();
-  for (Index distinct = 0; distinct < reflectances_.count(); ++distinct) {
-    product.parts.push_back({&matrix(distinct), {}});
-    for (Index channel = 0; channel < channels(); ++channel)
-      if (reflectances_.of_channel(channel) == distinct) product.parts.back().channels.push_back(channel);
-  }
+  product.parts = parts_of(reflectances_, channels());
   return product;
 }
 

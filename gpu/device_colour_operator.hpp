@@ -2,7 +2,6 @@
 
 #include "gpu/device_operator.hpp"
 #include "operators/colour_operator.hpp"
-#include "operators/distinct_reflectances.hpp"
 
 #include <memory>
 #include <vector>

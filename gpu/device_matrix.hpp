@@ -9,8 +9,8 @@
 
 namespace radiosity {
 
-/// A rows x cols matrix in the memory of a device, in float32 arithmetic. Products may be asked for on any
-/// thread; they wait for each other.
+/// A rows x cols matrix in the memory of a device, in float32 arithmetic or, where the matrix is of double
+/// precision, in that. Products may be asked for on any thread; they wait for each other.
 class DeviceMatrix {
  public:
   virtual ~DeviceMatrix() = default;
@@ -24,6 +24,12 @@ class DeviceMatrix {
 
   /// What it takes of the device's memory, by part.
   virtual ByteCount bytes() const = 0;
+
+  /// Of how many matrices it is made: column j of a field is multiplied with matrix j mod channels().
+  virtual Index channels() const { return 1; }
+
+  /// Whether products take and give fields in double precision: not those that are on the device already.
+  virtual bool in_double() const { return false; }
 
   /// M is this times the stored numbers.
   virtual double scale() const = 0;
@@ -54,6 +60,10 @@ class DeviceMatrix {
   virtual void dispatch(Index columns) const = 0;
 
  private:
+  template <typename Number>
+  void run_in(const ConstFieldRef& X, FieldRef Y, double scale,
+              const std::function<void(Index columns)>& dispatch_columns) const;
+
   std::shared_ptr<GlDevice> device_;
   Index rows_;
   Index cols_;

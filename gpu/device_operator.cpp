@@ -1,5 +1,6 @@
 #include "gpu/device_operator.hpp"
 
+#include "operators/closed_operator.hpp"
 #include "operators/reflectance.hpp"
 #include "operators/storage_choice.hpp"
 
@@ -13,8 +14,18 @@ OnDevice::Matrices OnDevice::only(std::unique_ptr<DeviceMatrix> matrix) {
   return matrices;
 }
 
-std::optional<DeviceTransport> OnDevice::transport_on_device() const {
-  const std::optional<ResidentProduct> product = resident_product();
+std::optional<ResidentProduct> resident_product(const LinearOperator& transport) {
+  if (const auto* on_device = dynamic_cast<const OnDevice*>(&transport))
+    return on_device->in_double() ? std::nullopt : on_device->resident_product();
+  const auto* other = dynamic_cast<const StandsForKernel*>(&transport);
+  if (other == nullptr) return std::nullopt;
+  std::optional<ResidentProduct> product = resident_product(other->kernel_stood_for());
+  if (product) product->reflectance = dynamic_cast<const KernelOperator&>(transport).reflectance();
+  return product;
+}
+
+std::optional<DeviceTransport> transport_on_device(const LinearOperator& transport) {
+  const std::optional<ResidentProduct> product = resident_product(transport);
   if (!product || product->global || product->parts.size() > 1) return std::nullopt;
   return DeviceTransport{product->parts.front().matrix, product->reflectance.array() * product->after.array(),
                          product->before.array(), product->order};
@@ -24,6 +35,16 @@ DeviceUse OnDevice::use() const {
   DeviceUse use = origin_.use;
   for (const auto& matrix : matrices_) use.device_seconds += matrix->device_seconds();
   return use;
+}
+
+std::vector<ResidentProduct::Part> OnDevice::parts_of(const DistinctReflectances& reflectances,
+                                                      Index channels) const {
+  std::vector<ResidentProduct::Part> parts;
+  for (Index distinct = 0; distinct < reflectances.count(); ++distinct)
+    parts.push_back({&matrix(distinct), {}});
+  for (Index channel = 0; channel < channels; ++channel)
+    parts[static_cast<std::size_t>(reflectances.of_channel(channel))].channels.push_back(channel);
+  return parts;
 }
 
 ByteCount OnDevice::bytes_with_diagonals(Index n, Index channels) const {
@@ -38,9 +59,19 @@ ByteCount OnDevice::bytes_with_diagonals(Index n, Index channels) const {
 }
 
 DeviceKernelOperator::DeviceKernelOperator(const KernelOperator& original,
-                                           std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin)
+                                           std::unique_ptr<DeviceMatrix> matrix, DeviceOrigin origin,
+                                           std::vector<Index> order)
     : DeviceOperator(only(std::move(matrix)), std::move(origin), original.root_area(),
-                     original.reflectance()) {}
+                     original.reflectance()),
+      order_(std::move(order)) {}
+
+void DeviceKernelOperator::multiply_kernel(const ConstFieldRef& X, FieldRef Y) const {
+  if (order_.empty()) return matrix().multiply(X, Y);
+  const Field sorted = X(order_, Eigen::all);
+  Field product(X.rows(), X.cols());
+  matrix().multiply(sorted, product);
+  Y(order_, Eigen::all) = product;
+}
 
 std::optional<ResidentProduct> DeviceKernelOperator::resident_product() const {
   ResidentProduct product;
@@ -48,6 +79,7 @@ std::optional<ResidentProduct> DeviceKernelOperator::resident_product() const {
   product.before = root_area().replicate(1, channels());
   product.after = product.before.cwiseInverse();
   product.reflectance = reflectance();
+  product.order = order_;
   return product;
 }
 

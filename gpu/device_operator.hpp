@@ -3,6 +3,7 @@
 #include "gpu/device_matrix.hpp"
 #include "gpu/device_transport.hpp"
 #include "gpu/resident_product.hpp"
+#include "operators/distinct_reflectances.hpp"
 #include "operators/kernel_operator.hpp"
 #include "operators/matrix_operator.hpp"
 
@@ -20,6 +21,9 @@ struct DeviceOrigin {
   std::string remark;
   Certificate certificate;
   DeviceUse use;
+  /// What a component of a product with a field in [0, 1] may differ by from the CPU's because the device
+  /// decodes otherwise, besides rounding: n x channels; empty: 0.
+  Eigen::MatrixXd decoding_difference;
 };
 
 /// What operators that compute with copies of matrices on the device have.
@@ -28,13 +32,12 @@ class OnDevice {
   virtual ~OnDevice() = default;
   /// Found when it is compared with the CPU's (DeviceUse::difference_max).
   void set_difference(double difference_max) { origin_.use.difference_max = difference_max; }
+  /// Fields have to come to the CPU then.
+  bool in_double() const { return matrix().in_double(); }
+  const Eigen::MatrixXd& decoding_difference() const { return origin_.decoding_difference; }
   /// Its parts, for whoever multiplies fields that are on the device already; they live as long as it does.
   /// Nothing where fields have to come to the CPU.
   virtual std::optional<ResidentProduct> resident_product() const = 0;
-
-  /// The same for solvers that stay on the device, with the reflectances of now; nothing for operators that
-  /// are not T or take more than one matrix.
-  std::optional<DeviceTransport> transport_on_device() const;
 
  protected:
   using Matrices = std::vector<std::unique_ptr<DeviceMatrix>>;
@@ -47,12 +50,22 @@ class OnDevice {
   const DeviceMatrix& matrix(Index index = 0) const { return *matrices_[static_cast<std::size_t>(index)]; }
   const DeviceOrigin& origin() const { return origin_; }
   DeviceUse use() const;
+  /// Every matrix with the channels of its reflectance, where there is one for each.
+  std::vector<ResidentProduct::Part> parts_of(const DistinctReflectances& reflectances, Index channels) const;
   ByteCount bytes_with_diagonals(Index n, Index channels) const;
 
  private:
   Matrices matrices_;
   DeviceOrigin origin_;
 };
+
+/// Those parts of an operator that is on a device, or of the kernel there that it stands for (closure=none),
+/// with the reflectances of now; nothing for others.
+std::optional<ResidentProduct> resident_product(const LinearOperator& transport);
+
+/// The same for solvers that stay on the device; nothing for operators that are not T or take more than one
+/// matrix.
+std::optional<DeviceTransport> transport_on_device(const LinearOperator& transport);
 
 /// What is the same in all of them, on top of Base, a kind of LinearOperator: they tell of themselves what
 /// their origin does, but for what they take of the device's memory.
@@ -62,7 +75,7 @@ class DeviceOperator : public Base, public OnDevice {
   ByteCount bytes() const final { return bytes_with_diagonals(this->size(), this->channels()); }
   std::string describe() const final { return origin().spec; }
   std::string remark() const final { return origin().remark; }
-  double product_roundoff() const final { return 0x1p-24; }
+  double product_roundoff() const final { return matrix().in_double() ? 0x1p-53 : 0x1p-24; }
   Certificate certificate() const final { return origin().certificate; }
   std::optional<DeviceUse> device_use() const final { return use(); }
 
@@ -76,14 +89,18 @@ class DeviceOperator : public Base, public OnDevice {
 /// R A^{-1/2} K A^{1/2} with K on the device, its diagonals on the CPU in double precision.
 class DeviceKernelOperator : public DeviceOperator<KernelOperator> {
  public:
-  /// `matrix` is K; areas and reflectances are those of `original`.
+  /// `matrix` is K; areas and reflectances are those of `original`. order[p]: the patch at place p of K;
+  /// empty: patches in their own order.
   DeviceKernelOperator(const KernelOperator& original, std::unique_ptr<DeviceMatrix> matrix,
-                       DeviceOrigin origin);
+                       DeviceOrigin origin, std::vector<Index> order = {});
 
   std::optional<ResidentProduct> resident_product() const override;
 
  protected:
-  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { matrix().multiply(X, Y); }
+  void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override;
+
+ private:
+  std::vector<Index> order_;
 };
 
 /// R F with F on the device.

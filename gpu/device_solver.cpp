@@ -18,29 +18,26 @@ constexpr int most_steps_at_once = 16;
 constexpr double part_of_tolerance = 0.5;
 constexpr double float_precision = 0x1p-22;  ///< that rounds reach, relative to what they start from
 
-const OnDevice& require_on_device(const std::string& name, const LinearOperator& transport) {
-  if (!solvable_on_device(transport))
-    fail<UsageError>("{}:fields=device: {} has no form in one piece on a device: take fields=cpu", name,
-                     transport.describe());
-  return dynamic_cast<const OnDevice&>(transport);
-}
-
 }  // namespace
 
 bool solvable_on_device(const LinearOperator& transport) {
-  const auto* on_device = dynamic_cast<const OnDevice*>(&transport);
-  return on_device != nullptr && on_device->transport_on_device().has_value();
+  return transport_on_device(transport).has_value();
 }
 
 DeviceSolver::DeviceSolver(const std::string& name, const SolverProblem& problem)
-    : SteppedSolver(name, problem), on_device_(require_on_device(name, problem.transport)) {}
+    : SteppedSolver(name, problem) {
+  if (!solvable_on_device(problem.transport))
+    fail<UsageError>(
+        "{}:fields=device: {} has no form in one piece and in float32 on a device: take fields=cpu", name,
+        problem.transport.describe());
+}
 
 void DeviceSolver::begin() {
-  const DeviceTransport transport = on_device_.transport_on_device().value();
-  const bool same = iteration_ && (transport.left == left_).all();
+  const DeviceTransport on_device = transport_on_device(transport()).value();
+  const bool same = iteration_ && (on_device.left == left_).all();
   if (!same) {
-    iteration_ = make_iteration(transport);
-    left_ = transport.left;
+    iteration_ = make_iteration(on_device);
+    left_ = on_device.left;
   }
   limits_ = round_limits();
   residual_ = emission();
@@ -140,7 +137,7 @@ DeviceConjugateGradients::DeviceConjugateGradients(const SolverProblem& problem)
 
 std::unique_ptr<DeviceIteration> DeviceConjugateGradients::make_iteration(
     const DeviceTransport& on_device) const {
-  return std::make_unique<ConjugateGradientsOnDevice>(*on_device.matrix, kernel_);
+  return std::make_unique<ConjugateGradientsOnDevice>(on_device, kernel_);
 }
 
 DeviceSolver::RoundLimits DeviceConjugateGradients::round_limits() {

@@ -30,7 +30,6 @@ class DeviceSolver : public SteppedSolver {
   /// Throws UsageError for operators that are not on a device in one piece.
   DeviceSolver(const std::string& name, const SolverProblem& problem);
 
-  const OnDevice& operator_on_device() const { return on_device_; }
   virtual std::unique_ptr<DeviceIteration> make_iteration(const DeviceTransport& on_device) const = 0;
   /// Before every solution. Announces products that it takes; throws Error where the method does not
   /// converge.
@@ -46,7 +45,6 @@ class DeviceSolver : public SteppedSolver {
   bool round_has_ended() const;
   void plan_steps(const Eigen::RowVectorXd& norms_before, int steps_between);
 
-  const OnDevice& on_device_;
   std::unique_ptr<DeviceIteration> iteration_;
   Eigen::ArrayXXd left_;  ///< of the transport that it was made with
   RoundLimits limits_{};

@@ -116,6 +116,8 @@ std::shared_ptr<GlContext> GlContext::open(const GlContextOptions& options) {
   if (options.storage_block_bytes)
     result->limits_.storage_block_bytes =
         std::min(result->limits_.storage_block_bytes, *options.storage_block_bytes);
+  if (options.texture_side)
+    result->limits_.texture_side = std::min(result->limits_.texture_side, *options.texture_side);
   return result;
 }
 
@@ -133,6 +135,7 @@ void GlContext::read_strings_and_limits() {
   }
   glGetIntegerv(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS, &limits_.group_invocations);
   glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &limits_.shared_bytes);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limits_.texture_side);
   if (debug_) {
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // on this thread, before the call that is wrong returns

@@ -20,6 +20,7 @@ struct GlLimits {
   std::array<int, 3> group_size{};       ///< invocations of a work group, each way
   int group_invocations = 0;             ///< and in all
   int shared_bytes = 0;                  ///< of a work group
+  int texture_side = 0;                  ///< texels, of a texture each way
 };
 
 /// What has gone between the processor's memory and the device's so far.
@@ -41,6 +42,7 @@ struct GlContextOptions {
   bool debug = gl_debug_by_default;
   /// Below what the driver states: for tests.
   std::optional<std::int64_t> storage_block_bytes = {};
+  std::optional<int> texture_side = {};
   std::vector<GlLibrary> libraries = required_gl_libraries();
   /// What can be done without OpenGL, at the end of the sentence that says that there is none.
   std::string otherwise = ", or use --device cpu";

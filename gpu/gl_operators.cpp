@@ -27,6 +27,13 @@ Placement take_placement(Spec& spec) {
                                                                               : Placement::device;
 }
 
+/// Of those that have blocks; the key is another one with closure=blocks.
+BlockPlacement take_blocks(Spec& spec) {
+  if (spec.name() != "dxt" || spec.text("closure", "none") == "blocks") return BlockPlacement::buffer;
+  return spec.choice("blocks", "buffer", {"buffer", "texture"}) == "texture" ? BlockPlacement::texture
+                                                                             : BlockPlacement::buffer;
+}
+
 }  // namespace
 
 OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const OperatorRegistry& cpu) {
@@ -34,9 +41,8 @@ OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const Ope
   for (OperatorEntry entry : cpu.entries()) {
     entry.make = [make = entry.make, device](Spec& spec, const FormFactors& form_factors) {
       require_uploadable(spec.name());
-      const std::optional<RowStrategy> strategy = take_strategy(spec);
-      const Placement placement = take_placement(spec);
-      return upload(device, *make(spec, form_factors), strategy, placement);
+      const UploadChoice choice{take_strategy(spec), take_placement(spec), take_blocks(spec)};
+      return upload(device, *make(spec, form_factors), choice);
     };
     registry.add(std::move(entry));
   }

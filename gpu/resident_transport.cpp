@@ -18,13 +18,12 @@ constexpr unsigned irradiance_binding = 5;
 constexpr Index patches_of_step_group = 64;
 
 ResidentProduct require_product(const LinearOperator& transport) {
-  const auto* on_device = dynamic_cast<const OnDevice*>(&transport);
-  std::optional<ResidentProduct> product =
-      on_device != nullptr ? on_device->resident_product() : std::nullopt;
+  std::optional<ResidentProduct> product = resident_product(transport);
   if (!product)
     fail<UsageError>(
         "{} cannot take fields that are on the device already: use an operator that runs there as a whole, "
-        "without closure= (form factors are closed before)",
+        "in float32, "
+        "without a closure (closure=none; form factors are closed before)",
         transport.describe());
   return *std::move(product);
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <epoxy/gl.h>
 
 namespace radiosity {
 namespace {
@@ -19,23 +18,6 @@ constexpr std::size_t table_numbers = std::size_t{3} * texture_table;
 /// Invocations that share a row of blocks.
 int lanes_of(RowStrategy strategy) {
   return strategy == RowStrategy::group ? invocations_of_texture_group : 1;
-}
-
-/// Above every channel's scale and every exact entry, so that in float32 all of them are below 1.
-double common_scale(const ColourTexture& texture, const std::vector<CsrMatrix<float>>& exact) {
-  double largest = 0;
-  for (int channel = 0; channel < texture.channels(); ++channel)
-    largest = std::max(largest, std::fabs(texture.scale(channel)));
-  for (const CsrMatrix<float>& matrix : exact)
-    for (const float value : matrix.value) largest = std::max(largest, std::fabs(static_cast<double>(value)));
-  return storage_scale<float>(largest);
-}
-
-std::vector<CsrMatrix<float>> compressed_rows(const std::vector<ExactRows>& exact) {
-  std::vector<CsrMatrix<float>> matrices;
-  matrices.reserve(exact.size());
-  for (const ExactRows& rows : exact) matrices.push_back(rows.compressed_rows());
-  return matrices;
 }
 
 StoredRows rows_of_blocks(const std::shared_ptr<const GlContext>& context, const ColourTexture& texture) {
@@ -53,16 +35,34 @@ GlBuffer empty_tables(const std::shared_ptr<const GlContext>& context) {
 
 }  // namespace
 
-TextureOnDevice::TextureOnDevice(std::shared_ptr<GlDevice> device_of_texture, const ColourTexture& texture,
+KeptApart kept_apart_of(const ColourTexture& texture, const std::vector<ExactRows>& exact) {
+  double largest = 0;
+  for (int channel = 0; channel < texture.channels(); ++channel)
+    largest = std::max(largest, std::fabs(texture.scale(channel)));
+  KeptApart result;
+  for (const ExactRows& rows : exact) {
+    result.channels.push_back(rows.compressed_rows());
+    for (const float value : result.channels.back().value)
+      largest = std::max(largest, std::fabs(static_cast<double>(value)));
+  }
+  result.scale = storage_scale<float>(largest);
+  for (CsrMatrix<float>& matrix : result.channels)
+    for (float& value : matrix.value)  // a power of two: nothing is lost
+      value = static_cast<float>(static_cast<double>(value) / result.scale);
+  return result;
+}
+
+TextureOnDevice::TextureOnDevice(const std::shared_ptr<GlDevice>& device, const ColourTexture& texture,
                                  const std::vector<ExactRows>& exact, RowStrategy strategy)
-    : DeviceMatrix(device_of_texture, texture.rows(), texture.columns()),
-      channels_(texture.channels()),
+    : TextureOnDevice(device, texture, kept_apart_of(texture, exact), strategy) {}
+
+TextureOnDevice::TextureOnDevice(const std::shared_ptr<GlDevice>& device_of_texture,
+                                 const ColourTexture& texture, const KeptApart& kept_apart,
+                                 RowStrategy strategy)
+    : TexelsOnDevice(device_of_texture, texture.rows(), texture.columns(), kept_apart, strategy),
       block_columns_(texture.block_columns()),
-      strategy_(strategy),
       blocks_(rows_of_blocks(device_of_texture->context(), texture)),
       tables_(empty_tables(device_of_texture->context())) {
-  std::vector<CsrMatrix<float>> matrices = compressed_rows(exact);
-  scale_ = common_scale(texture, matrices);
   const CurrentContext current(*device().context());
   upload_tables(texture);
   program_ = &device().program({"texture_product.comp",
@@ -70,11 +70,6 @@ TextureOnDevice::TextureOnDevice(std::shared_ptr<GlDevice> device_of_texture, co
                                  {"LOGARITHMIC", texture.curve().logarithmic ? 1 : 0},
                                  {"INVOCATIONS", invocations_of_texture_group},
                                  {"LANES", lanes_of(strategy)}}});
-  for (CsrMatrix<float>& matrix : matrices) {
-    // A power of two: nothing is lost.
-    for (float& value : matrix.value) value = static_cast<float>(static_cast<double>(value) / scale_);
-    exact_.push_back(std::make_unique<CsrOnDevice>(device_of_texture, matrix, strategy));
-  }
 }
 
 void TextureOnDevice::upload_tables(const ColourTexture& texture) {
@@ -82,32 +77,19 @@ void TextureOnDevice::upload_tables(const ColourTexture& texture) {
   std::copy_n(texture.tables(), table_numbers, numbers.begin());
   for (int channel = 0; channel < texture.channels(); ++channel)
     numbers[table_numbers + static_cast<std::size_t>(channel)] =
-        static_cast<float>(texture.scale(channel) / scale_);
+        static_cast<float>(texture.scale(channel) / scale());
   tables_.write(0, sizeof numbers, numbers.data());
 }
 
-ByteCount TextureOnDevice::bytes() const {
-  ByteCount bytes{{{"texels", tables_.bytes() + blocks_.bytes()}, {"exact", 0}, {"indices", 0}}};
-  for (const auto& exact : exact_) {
-    const ByteCount own = exact->bytes();
-    for (std::size_t part = 0; part < own.parts.size(); ++part)
-      bytes.parts[part + 1].second += own.parts[part].second;
-  }
-  return bytes;
-}
-
-void TextureOnDevice::dispatch(Index columns) const {
+void TextureOnDevice::dispatch_texels(Index columns) const {
   for (const StoredRows::Part& part : blocks_.parts())
-    for (Index first = 0; first < columns; first += channels_) dispatch_part(part, first);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  for (std::size_t channel = 0; channel < exact_.size(); ++channel)
-    exact_[channel]->dispatch_sum(static_cast<Index>(channel), channels_, columns);
+    for (Index first = 0; first < columns; first += channels()) dispatch_part(part, first);
 }
 
 void TextureOnDevice::dispatch_part(const StoredRows::Part& part, Index first_column) const {
   part.buffer.bind(blocks_binding);
   tables_.bind(tables_binding);
-  const Index rows_together = invocations_of_texture_group / lanes_of(strategy_);
+  const Index rows_together = invocations_of_texture_group / lanes_of(strategy());
   const GlProgram& program = *program_;
   program.use();
   program.set("block_columns", block_columns_);

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "gpu/csr_on_device.hpp"
-#include "gpu/device_matrix.hpp"
 #include "gpu/stored_rows.hpp"
+#include "gpu/texels_on_device.hpp"
 #include "kernels/colour_texture.hpp"
 #include "kernels/exact_rows.hpp"
 
@@ -11,35 +10,37 @@
 
 namespace radiosity {
 
+/// Where BC1 blocks are on the device: in storage buffers, decoded by the shader, or in compressed textures,
+/// decoded by the device's texture units (SampledTextureOnDevice).
+enum class BlockPlacement { buffer, texture };
+
+/// The entries that are added to a texture; their scale is above each of them and above the texture's scales.
+KeptApart kept_apart_of(const ColourTexture& texture, const std::vector<ExactRows>& exact);
+
 /// Document 000's compressed matrix on the device: BC1 blocks in a storage buffer, which the shader decodes
 /// itself (texture units of different vendors round differently, and the software driver is slow at it), and
-/// the entries that are kept apart, a sparse matrix a channel. Column j of a field belongs to channel j mod
-/// channels.
-class TextureOnDevice final : public DeviceMatrix {
+/// the entries that are kept apart.
+class TextureOnDevice final : public TexelsOnDevice {
  public:
   /// `exact`: one a channel. Throws Error where a row of blocks does not fit into a storage block, or the
   /// matrix not into the device.
-  TextureOnDevice(std::shared_ptr<GlDevice> device, const ColourTexture& texture,
+  TextureOnDevice(const std::shared_ptr<GlDevice>& device, const ColourTexture& texture,
                   const std::vector<ExactRows>& exact, RowStrategy strategy);
 
-  ByteCount bytes() const override;
-  double scale() const override { return scale_; }
-
  protected:
-  void dispatch(Index columns) const override;
+  void dispatch_texels(Index columns) const override;
+  std::size_t texel_bytes() const override { return tables_.bytes() + blocks_.bytes(); }
 
  private:
+  TextureOnDevice(const std::shared_ptr<GlDevice>& device, const ColourTexture& texture,
+                  const KeptApart& kept_apart, RowStrategy strategy);
   void upload_tables(const ColourTexture& texture);
   void dispatch_part(const StoredRows::Part& part, Index first_column) const;
 
-  Index channels_;
   Index block_columns_;
-  double scale_;
-  RowStrategy strategy_;
   const GlProgram* program_ = nullptr;  ///< the device's
   StoredRows blocks_;                   ///< a row for four of the matrix
   GlBuffer tables_;  ///< of ColourTexture, and the part that each channel's scale is of scale()
-  std::vector<std::unique_ptr<CsrOnDevice>> exact_;
 };
 
 }  // namespace radiosity

@@ -4,15 +4,19 @@
 #include "foundation/random.hpp"
 #include "foundation/spec.hpp"
 #include "foundation/stopwatch.hpp"
-#include "gpu/bc4_on_device.hpp"
 #include "gpu/csr_on_device.hpp"
 #include "gpu/dense_on_device.hpp"
 #include "gpu/device_colour_operator.hpp"
 #include "gpu/device_factors_operator.hpp"
 #include "gpu/device_operator.hpp"
+#include "gpu/device_series_operator.hpp"
 #include "gpu/low_rank_on_device.hpp"
+#include "gpu/sampled_texture_on_device.hpp"
+#include "gpu/sampling_difference.hpp"
 #include "gpu/sparse_v_on_device.hpp"
 #include "gpu/texture_on_device.hpp"
+#include "gpu/tiles_on_device.hpp"
+#include "gpu/two_sided_factors.hpp"
 #include "operators/low_rank_operator.hpp"
 #include "operators/sparse_v_operator.hpp"
 #include "operators/stored_matrix.hpp"
@@ -30,33 +34,44 @@ namespace {
                    fmt::join(uploadable_specs(), ", "));
 }
 
-std::string spec_on_device(const LinearOperator& original, std::optional<RowStrategy> strategy,
-                           Placement placement) {
+std::string spec_on_device(const LinearOperator& original, const UploadChoice& choice) {
   std::string spec = original.describe();
-  if (strategy)
-    spec = with_keys(spec, *strategy == RowStrategy::group ? "strategy=group" : "strategy=invocation");
-  return placement == Placement::hybrid ? with_keys(spec, "placement=hybrid") : spec;
+  if (choice.strategy)
+    spec = with_keys(spec, *choice.strategy == RowStrategy::group ? "strategy=group" : "strategy=invocation");
+  if (choice.placement == Placement::hybrid) spec = with_keys(spec, "placement=hybrid");
+  if (choice.blocks == BlockPlacement::texture) spec = with_keys(spec, "blocks=texture");
+  return spec;
+}
+
+/// The BC1 texture of an operator that texture units are to decode. Throws UsageError, naming the spec, for
+/// others.
+const ColourTexture& texture_to_sample(const HasCompressedColours* stored, const std::string& spec) {
+  const ColourTexture* texture = stored == nullptr ? nullptr : stored->compressed_colours().texture();
+  if (texture == nullptr) fail<UsageError>("{}: blocks=texture is for BC1 blocks: take codec=bc1", spec);
+  return *texture;
 }
 
 /// Copies one operator to a device, matrix by matrix.
 class Uploader {
  public:
-  Uploader(std::shared_ptr<GlDevice> device, const LinearOperator& original,
-           std::optional<RowStrategy> strategy, Placement placement)
+  Uploader(std::shared_ptr<GlDevice> device, const LinearOperator& original, const UploadChoice& choice)
       : device_(std::move(device)),
         original_(original),
-        strategy_(strategy.value_or(device_->preferred_strategy())),
-        placement_(placement),
-        spec_(spec_on_device(original, strategy, placement)) {}
+        strategy_(choice.strategy.value_or(device_->preferred_strategy())),
+        choice_(choice),
+        spec_(spec_on_device(original, choice)) {}
 
   /// Throws UsageError for operators that have no form for the device.
   std::unique_ptr<LinearOperator> copy() const {
-    if (placement_ == Placement::hybrid) return copy_in_two_places();
+    if (choice_.placement == Placement::hybrid) return copy_in_two_places();
+    if (choice_.blocks == BlockPlacement::texture) return copy_sampled();
     if (const auto* stored = dynamic_cast<const HasStoredMatrix*>(&original_))
       return with_diagonals(copy_stored(stored->stored()));
     if (const auto* stored = dynamic_cast<const HasStoredColours*>(&original_)) return copy_colours(*stored);
     if (const auto* stored = dynamic_cast<const HasCompressedColours*>(&original_))
       return copy_texture(*stored);
+    if (const auto* stored = dynamic_cast<const HasCompressedKernel*>(&original_)) return copy_tiles(*stored);
+    if (const auto* stored = dynamic_cast<const HasStoredSeries*>(&original_)) return copy_series(*stored);
     if (const auto* factors = dynamic_cast<const LowRankOperator<float>*>(&original_))
       return with_factors<DeviceFactorsOperator, LowRankOnDevice>(*factors, factors->left_factor(),
                                                                   factors->right_factor());
@@ -66,6 +81,9 @@ class Uploader {
     if (const auto* factors = dynamic_cast<const LowRankKernelOperator<float>*>(&original_))
       return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, factors->factor(),
                                                                         factors->values());
+    if (const auto* factors = dynamic_cast<const TwoSidedOperator<float>*>(&original_))
+      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, full_left_factor(*factors),
+                                                                        full_right_factor(*factors));
     refuse(original_.describe());
   }
 
@@ -106,12 +124,43 @@ class Uploader {
     if (compressed.texture() != nullptr)
       matrix =
           std::make_unique<TextureOnDevice>(device_, *compressed.texture(), compressed.exact(), strategy_);
-    else if (Bc4OnDevice::takes(compressed.tiles()->front()))
-      matrix = std::make_unique<Bc4OnDevice>(device_, *compressed.tiles(), strategy_);
     else
-      refuse(original_.describe());
+      matrix = std::make_unique<TilesOnDevice>(device_, *compressed.tiles(), strategy_);
+    return with_order(std::move(matrix), compressed, origin());
+  }
+
+  /// What the texture units round is in its certificate, and allowed when it is compared.
+  std::unique_ptr<LinearOperator> copy_sampled() const {
+    const auto* stored = dynamic_cast<const HasCompressedColours*>(&original_);
+    const ColourTexture& texture = texture_to_sample(stored, spec_);
+    const CompressedColours& compressed = stored->compressed_colours();
+    auto matrix = std::make_unique<SampledTextureOnDevice>(device_, texture, compressed.exact(), strategy_);
+    DeviceOrigin sampled = origin();
+    SamplingDifference difference =
+        sampling_difference(texture, compressed.order(),
+                            dynamic_cast<const ColourOperator&>(original_).reflectance(), stored->area());
+    sampled.certificate = sampled_certificate(original_, difference, stored->area());
+    sampled.decoding_difference = std::move(difference.rows);
+    return with_order(std::move(matrix), compressed, std::move(sampled));
+  }
+
+  std::unique_ptr<LinearOperator> with_order(Copy matrix, const CompressedColours& compressed,
+                                             DeviceOrigin origin) const {
     return std::make_unique<DeviceTextureOperator>(dynamic_cast<const ColourOperator&>(original_),
-                                                   std::move(matrix), compressed.order(), origin());
+                                                   std::move(matrix), compressed.order(), std::move(origin));
+  }
+
+  std::unique_ptr<LinearOperator> copy_tiles(const HasCompressedKernel& stored) const {
+    auto matrix =
+        std::make_unique<TilesOnDevice>(device_, std::span(&stored.compressed_kernel(), 1), strategy_);
+    return std::make_unique<DeviceKernelOperator>(dynamic_cast<const KernelOperator&>(original_),
+                                                  std::move(matrix), origin(), stored.kernel_order());
+  }
+
+  std::unique_ptr<LinearOperator> copy_series(const HasStoredSeries& stored) const {
+    std::vector<Copy> matrices;
+    for (const CsrMatrix<float>* matrix : stored.stored_series()) matrices.push_back(copy_matrix(*matrix));
+    return std::make_unique<DeviceSeriesOperator>(stored.reflectance(), std::move(matrices), origin());
   }
 
   std::unique_ptr<LinearOperator> copy_colours(const HasStoredColours& stored) const {
@@ -124,17 +173,19 @@ class Uploader {
   Copy copy_stored(const StoredMatrix& stored) const {
     return std::visit([this](const auto* matrix) { return copy_matrix(*matrix); }, stored);
   }
-  Copy copy_matrix(const SymmetricTiles<float>& kernel) const { return dense(kernel); }
-  Copy copy_matrix(const SymmetricTiles<Half>& kernel) const { return dense(kernel); }
-  Copy copy_matrix(const RowMajorMatrix<float>& matrix) const { return dense(matrix); }
-  Copy copy_matrix(const RowMajorMatrix<Half>& matrix) const { return dense(matrix); }
-  Copy copy_matrix(const CsrMatrix<float>& matrix) const {
-    return std::make_unique<CsrOnDevice>(device_, matrix, strategy_);
+  template <typename Scalar>
+  Copy copy_matrix(const SymmetricTiles<Scalar>& kernel) const {
+    return dense(kernel);
   }
-  /// Double precision is not for the device: few graphics cards are fast at it.
-  template <typename Other>
-  Copy copy_matrix(const Other&) const {
-    refuse(original_.describe());
+  template <typename Scalar>
+  Copy copy_matrix(const RowMajorMatrix<Scalar>& matrix) const {
+    return dense(matrix);
+  }
+  Copy copy_matrix(const CsrMatrix<float>& matrix) const {
+    return std::make_unique<CsrOnDevice<float>>(device_, matrix, strategy_);
+  }
+  Copy copy_matrix(const CsrMatrix<double>& matrix) const {
+    return std::make_unique<CsrOnDevice<double>>(device_, matrix, strategy_);
   }
   template <template <typename> class Matrix, typename Scalar>
   Copy dense(const Matrix<Scalar>& matrix) const {
@@ -147,29 +198,57 @@ class Uploader {
     return {spec_,
             original_.remark(),
             original_.certificate(),
-            {"gl", context.renderer(), context.software(), 0, watch_.seconds(), 0}};
+            {"gl", context.renderer(), context.software(), 0, watch_.seconds(), 0},
+            {}};
   }
 
   std::shared_ptr<GlDevice> device_;
   const LinearOperator& original_;
   RowStrategy strategy_;
-  Placement placement_;
+  UploadChoice choice_;
   std::string spec_;
   Stopwatch watch_;
 };
 
-/// Both products are within 2 (n + 8) u |A| |X| of the true one; factors may have signs, whose terms cancel.
-double allowed_difference(const LinearOperator& original) {
-  return std::max(4 * (static_cast<double>(original.size()) + 8) * 0x1p-24, 1e-4);
+/// Both products are within 2 (n + 8) u |A| |X| of the true one; factors, which are in float32, may have
+/// signs, whose terms cancel.
+double allowed_difference(const LinearOperator& original, const LinearOperator& copy) {
+  const double roundoff = std::max(original.product_roundoff(), copy.product_roundoff());
+  const double rounding = 4 * (static_cast<double>(copy.size()) + 8) * roundoff;
+  return roundoff < 0x1p-24 ? rounding : std::max(rounding, 1e-4);
 }
 
 }  // namespace
 
 const std::vector<std::string>& uploadable_specs() {
-  static const std::vector<std::string> specs = {
-      "dense:f32", "dense:f16",   "csr:f32",       "svd:k=64",     "rsvd:k=64",
-      "qr:k=64",   "2msc:k=64",   "sparse-v:k=64", "cur:k=64",     "wavelet:k=64",
-      "dct:k=64",  "bounces:k=3", "dxt:codec=bc1", "dxt:codec=bc4"};
+  static const std::vector<std::string> specs = {"dense:f64",
+                                                 "dense:f32",
+                                                 "dense:f16",
+                                                 "csr:f64",
+                                                 "csr:f32",
+                                                 "quantized",
+                                                 "quantized:bits=8",
+                                                 "quantized:bits=2",
+                                                 "topk",
+                                                 "svd:k=64",
+                                                 "rsvd:k=64",
+                                                 "qr:k=64",
+                                                 "2msc:k=64",
+                                                 "2msc:k=64,sides=two",
+                                                 "sparse-v:k=64",
+                                                 "cur:k=64",
+                                                 "wavelet:k=64",
+                                                 "dct:k=64",
+                                                 "neumann-sparse",
+                                                 "bounces:k=3",
+                                                 "dxt:codec=bc1",
+                                                 "dxt:blocks=texture",
+                                                 "dxt:codec=bc4",
+                                                 "dxt:codec=u8",
+                                                 "dxt:codec=u4",
+                                                 "dxt:codec=f16",
+                                                 "dxt:codec=bf16",
+                                                 "dxt:matrix=kernel"};
   return specs;
 }
 
@@ -182,7 +261,7 @@ void require_uploadable(const std::string& spec) {
 }
 
 double compare_products(const LinearOperator& original, const LinearOperator& copy,
-                        const std::string& renderer) {
+                        const std::string& renderer, const Eigen::MatrixXd& allowed) {
   RandomStream random(1);
   const Field X = Field::NullaryExpr(original.size(), original.channels(), [&] { return random.uniform(); });
   Field Y(X.rows(), X.cols());
@@ -190,9 +269,12 @@ double compare_products(const LinearOperator& original, const LinearOperator& co
   original.apply(X, Y);
   copy.apply(X, Z);
   if (Y.size() == 0) return 0;
-  const double difference = (Z - Y).cwiseAbs().maxCoeff();
   const double largest = Y.cwiseAbs().maxCoeff();
-  if (!(difference <= allowed_difference(original) * largest))
+  const double difference = (Z - Y).cwiseAbs().maxCoeff();
+  Eigen::ArrayXXd limits =
+      Eigen::ArrayXXd::Constant(Y.rows(), Y.cols(), allowed_difference(original, copy) * largest);
+  if (allowed.size() > 0) limits += allowed.array();
+  if (!((Z - Y).cwiseAbs().array() <= limits).all())
     fail(
         "{} on '{}' is off by {:.1e} of the CPU's product: its driver computes something else; use --device "
         "cpu",
@@ -201,11 +283,11 @@ double compare_products(const LinearOperator& original, const LinearOperator& co
 }
 
 std::unique_ptr<LinearOperator> upload(const std::shared_ptr<GlDevice>& device,
-                                       const LinearOperator& original, std::optional<RowStrategy> strategy,
-                                       Placement placement) {
-  auto copy = Uploader(device, original, strategy, placement).copy();
-  dynamic_cast<OnDevice&>(*copy).set_difference(
-      compare_products(original, *copy, device->context()->renderer()));
+                                       const LinearOperator& original, const UploadChoice& choice) {
+  auto copy = Uploader(device, original, choice).copy();
+  auto& on_device = dynamic_cast<OnDevice&>(*copy);
+  on_device.set_difference(
+      compare_products(original, *copy, device->context()->renderer(), on_device.decoding_difference()));
   return copy;
 }
 

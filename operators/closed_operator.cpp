@@ -93,7 +93,7 @@ class ClosedKernelOperator : public KernelOperator {
 };
 
 /// K~ itself, where its operator would be closed if the spec did not say otherwise.
-class UnclosedOperator final : public ClosedKernelOperator {
+class UnclosedOperator final : public ClosedKernelOperator, public StandsForKernel {
  public:
   UnclosedOperator(std::unique_ptr<KernelOperator> kernel, std::string keys, const FormFactors& form_factors)
       : ClosedKernelOperator(std::move(kernel), std::move(keys), form_factors) {}
@@ -101,6 +101,7 @@ class UnclosedOperator final : public ClosedKernelOperator {
   ByteCount bytes() const override { return approximation().bytes(); }
   Certificate certificate() const override { return approximation().certificate(); }
   std::string remark() const override { return approximation().remark(); }
+  const KernelOperator& kernel_stood_for() const override { return approximation(); }
 
  protected:
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override {

@@ -2,7 +2,7 @@
 
 #include "form_factors/form_factors.hpp"
 #include "foundation/spec.hpp"
-#include "operators/linear_operator.hpp"
+#include "operators/kernel_operator.hpp"
 #include "operators/rooms.hpp"
 
 #include <memory>
@@ -24,6 +24,14 @@ namespace radiosity {
 ///              in the area norm, and was the better one in every scene and at every reflectance tried
 ///              (`radiosity compare SCENE --operators topk:closure=symmetric topk:closure=blocks`).
 enum class OperatorClosure { none, rows, symmetric, blocks, automatic };
+
+/// The side interface of an operator that multiplies as another one does and is called otherwise
+/// (closure=none). Reflectances are its own.
+class StandsForKernel {
+ public:
+  virtual ~StandsForKernel() = default;
+  virtual const KernelOperator& kernel_stood_for() const = 0;
+};
 
 /// What a spec says about the closure: `closure=KIND` and, for blocks, `blocks=rooms|groups|N`.
 struct ClosureChoice {

@@ -5,6 +5,7 @@
 #include "operators/quantized_kernel_operator.hpp"
 #include "operators/rounding_certificate.hpp"
 #include "operators/storage_choice.hpp"
+#include "operators/stored_matrix.hpp"
 
 #include <utility>
 
@@ -24,7 +25,7 @@ SymmetricTiles<double> reordered(const SymmetricTiles<double>& K, const std::vec
   return result;
 }
 
-class CompressedKernelOperator final : public KernelOperator {
+class CompressedKernelOperator final : public KernelOperator, public HasCompressedKernel {
  public:
   CompressedKernelOperator(const FormFactors& form_factors, CompressedKernel kernel, std::string spec)
       : KernelOperator(form_factors),
@@ -50,6 +51,8 @@ class CompressedKernelOperator final : public KernelOperator {
   std::string describe() const override { return spec_; }
   Certificate certificate() const override { return certificate_; }
   double product_roundoff() const override { return 0x1p-24; }
+  const QuantizedTiles& compressed_kernel() const override { return tiles_; }
+  const std::vector<Index>& kernel_order() const override { return order_; }
 
  protected:
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override {

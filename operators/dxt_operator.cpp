@@ -103,6 +103,7 @@ class DxtOperator final : public ColourOperator, public HasCompressedColours {
               Certificate certificate)
       : ColourOperator(form_factors, choice.bounces != 1L),
         spec_(choice.text()),
+        mesh_(form_factors.mesh),
         compressed_(std::move(compressed)),
         certificate_(std::move(certificate)) {}
 
@@ -113,6 +114,7 @@ class DxtOperator final : public ColourOperator, public HasCompressedColours {
   }
   std::string describe() const override { return spec_; }
   const CompressedColours& compressed_colours() const override { return compressed_; }
+  const Eigen::VectorXd& area() const override { return mesh_->area; }
   Certificate certificate() const override { return certificate_; }
   double product_roundoff() const override { return 0x1p-24; }
 
@@ -124,6 +126,7 @@ class DxtOperator final : public ColourOperator, public HasCompressedColours {
 
  private:
   std::string spec_;
+  std::shared_ptr<const PatchMesh> mesh_;
   CompressedColours compressed_;
   Certificate certificate_;
 };

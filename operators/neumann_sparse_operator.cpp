@@ -4,6 +4,7 @@
 #include "kernels/sparse_powers.hpp"
 #include "operators/distinct_reflectances.hpp"
 #include "operators/reflectance.hpp"
+#include "operators/stored_matrix.hpp"
 
 #include <fmt/format.h>
 
@@ -34,25 +35,30 @@ CsrMatrix<double> scale_rows(CsrMatrix<double> matrix, const Eigen::VectorXd& fa
   return matrix;
 }
 
-class NeumannSparseOperator final : public LinearOperator {
+class NeumannSparseOperator final : public LinearOperator, public HasStoredSeries {
  public:
   NeumannSparseOperator(const FormFactors& form_factors, const SparsePowersOptions& options)
-      : size_(form_factors.patch_count()),
-        channels_(form_factors.mesh->channels()),
+      : reflectance_(form_factors.mesh->reflectance),
         options_(options),
         reflectances_(form_factors.mesh->reflectance) {
-    const Eigen::MatrixXd& reflectance = form_factors.mesh->reflectance;
-    check_reflectance(reflectance, size_);
+    check_reflectance(reflectance_, form_factors.patch_count());
     const CsrMatrix<double> F = compress_form_factors(form_factors);
     const Eigen::VectorXd root_area = form_factors.mesh->area.cwiseSqrt();
     for (Index distinct = 0; distinct < reflectances_.count(); ++distinct)
       indirect_.push_back(sum_sparse_powers(
-          scale_rows(F, reflectance.col(reflectances_.representative(distinct))), root_area, options));
+          scale_rows(F, reflectance_.col(reflectances_.representative(distinct))), root_area, options));
   }
 
-  Index size() const override { return size_; }
-  Index channels() const override { return channels_; }
+  Index size() const override { return reflectance_.rows(); }
+  Index channels() const override { return reflectance_.cols(); }
   bool global() const override { return true; }
+
+  std::vector<const CsrMatrix<float>*> stored_series() const override {
+    std::vector<const CsrMatrix<float>*> series;
+    for (const SparsePowers& powers : indirect_) series.push_back(&powers.sum);
+    return series;
+  }
+  const Eigen::MatrixXd& reflectance() const override { return reflectance_; }
 
   ByteCount bytes() const override {
     std::size_t entries = 0;
@@ -77,8 +83,8 @@ class NeumannSparseOperator final : public LinearOperator {
       kept += static_cast<double>(series.sum.value.size());
       remainder = std::max(remainder, series.remainder);
     }
-    const double all =
-        static_cast<double>(reflectances_.count()) * static_cast<double>(size_) * static_cast<double>(size_);
+    const double all = static_cast<double>(reflectances_.count()) * static_cast<double>(size()) *
+                       static_cast<double>(size());
     std::string text =
         fmt::format("{} powers of T, {:.3g} % of the entries kept", powers, all > 0 ? 100 * kept / all : 0);
     if (remainder > 0x1p-24)
@@ -89,15 +95,14 @@ class NeumannSparseOperator final : public LinearOperator {
  protected:
   void apply_impl(double alpha, const ConstFieldRef& X, double beta, FieldRef Y) const override {
     const Field reflected =
-        reflectances_.multiply_each(X, size_, [&](Index distinct, const Field& fields, FieldRef images) {
+        reflectances_.multiply_each(X, size(), [&](Index distinct, const Field& fields, FieldRef images) {
           multiply(indirect_[static_cast<std::size_t>(distinct)].sum, fields, images);
         });
     add_answer(alpha, X, reflected, beta, Y);
   }
 
  private:
-  Index size_;
-  Index channels_;
+  Eigen::MatrixXd reflectance_;
   SparsePowersOptions options_;
   DistinctReflectances reflectances_;
   std::vector<SparsePowers> indirect_;  ///< G - I, one a distinct reflectance

@@ -37,6 +37,27 @@ class HasCompressedColours {
  public:
   virtual ~HasCompressedColours() = default;
   virtual const CompressedColours& compressed_colours() const = 0;
+  /// Of the patches, for certificates of other placements.
+  virtual const Eigen::VectorXd& area() const = 0;
+};
+
+/// The side interface of KernelOperators whose kernel is in quantized tiles.
+class HasCompressedKernel {
+ public:
+  virtual ~HasCompressedKernel() = default;
+  virtual const QuantizedTiles& compressed_kernel() const = 0;
+  /// The patch at each place of its rows and columns; empty: patches in their own order.
+  virtual const std::vector<Index>& kernel_order() const = 0;
+};
+
+/// The side interface of global operators that keep G - I by compressed rows for each distinct reflectance,
+/// in the order of DistinctReflectances.
+class HasStoredSeries {
+ public:
+  virtual ~HasStoredSeries() = default;
+  virtual std::vector<const CsrMatrix<float>*> stored_series() const = 0;
+  /// rho, n x channels.
+  virtual const Eigen::MatrixXd& reflectance() const = 0;
 };
 
 }  // namespace radiosity

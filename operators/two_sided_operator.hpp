@@ -24,6 +24,9 @@ class TwoSidedOperator final : public KernelOperator, public LowRankFactors {
   void multiply_right_transposed(const ConstFieldRef& Y, FieldRef C) const override;
   const Eigen::MatrixXd& albedo() const override { return reflectance(); }
   std::size_t right_bytes() const override;
+  /// Z and W.
+  const FactorMatrix<Scalar>& factor() const { return Z_; }
+  const Segments& indicators() const { return W_; }
 
   ByteCount bytes() const override;
   std::string describe() const override { return spec_; }

@@ -33,7 +33,7 @@ class BounceTimer {
   /// Bounce by bounce with T, the channels in one piece or one after the other.
   DeviceMethodSpeed iterated(const std::string& name, const LinearOperator& transport, bool packed,
                              const Field& reference) const {
-    const DeviceTransport whole = dynamic_cast<const OnDevice&>(transport).transport_on_device().value();
+    const DeviceTransport whole = transport_on_device(transport).value();
     std::vector<Field> emissions;
     std::vector<std::unique_ptr<NeumannOnDevice>> iterations;
     for (Index c = 0; c < (packed ? 1 : E_.cols()); ++c) {

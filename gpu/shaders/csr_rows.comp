@@ -1,16 +1,23 @@
 // Y = M X for COLUMNS columns and a sparse M by compressed rows. LANES of the INVOCATIONS of a
-// work group walk along a row side by side; with one there is nothing to put together. ADDS: Y += M X.
+// work group walk along a row side by side; with one there is nothing to put together. ADDS: Y += M X. DOUBLE: in that
+// precision.
 #include "groups.glsl"
 
 layout(local_size_x = INVOCATIONS) in;
 
+#if DOUBLE
+#define NUMBER double
+#else
+#define NUMBER float
+#endif
+
 const uint ROWS = INVOCATIONS / LANES;
 
-layout(std430, binding = 0) readonly buffer Values { float values[]; };
+layout(std430, binding = 0) readonly buffer Values { NUMBER values[]; };
 layout(std430, binding = 3) readonly buffer Columns { uint columns[]; };  // NARROW: two to a number, the first below
 layout(std430, binding = 4) readonly buffer RowBegin { uint row_begin[]; };
-layout(std430, binding = 1) readonly buffer X { float x[]; };
-layout(std430, binding = 2) buffer Y { float y[]; };
+layout(std430, binding = 1) readonly buffer X { NUMBER x[]; };
+layout(std430, binding = 2) buffer Y { NUMBER y[]; };
 
 uniform uint first_row;   // of the matrix in this block of storage
 uniform uint block_rows;
@@ -27,7 +34,7 @@ uint column_of(uint i) {
 #endif
 }
 
-void write_sum(uint c, uint row, float sum) {
+void write_sum(uint c, uint row, NUMBER sum) {
   uint place = (first_column + c * column_step) * y_stride + first_row + row;
 #if ADDS
   sum += y[place];
@@ -36,7 +43,7 @@ void write_sum(uint c, uint row, float sum) {
 }
 
 #if LANES > 1
-shared float sums[COLUMNS][INVOCATIONS];
+shared NUMBER sums[COLUMNS][INVOCATIONS];
 #endif
 
 void main() {
@@ -44,10 +51,10 @@ void main() {
   uint row = group_index() * ROWS + gl_LocalInvocationID.x / LANES;
   bool present = row < block_rows;
   uint end = present ? row_begin[row + 1] : 0;
-  float sum[COLUMNS];
+  NUMBER sum[COLUMNS];
   for (uint c = 0; c < COLUMNS; ++c) sum[c] = 0;
   for (uint i = present ? row_begin[row] + lane : 0; i < end; i += LANES) {
-    float value = values[i];
+    NUMBER value = values[i];
     uint column = column_of(i);
     for (uint c = 0; c < COLUMNS; ++c) sum[c] += value * x[(first_column + c * column_step) * x_stride + column];
   }

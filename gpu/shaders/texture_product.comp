@@ -38,9 +38,12 @@ uniform uint part_block_rows;
 uniform uint y_stride;
 uniform uint first_column;     // of a light, of CHANNELS columns
 
-#if LANES > 1
-shared vec4 sums[CHANNELS][INVOCATIONS];
-#endif
+#define SUMS CHANNELS
+#include "four_row_sums.glsl"
+
+void write_sum(uint channel, uint row, float sum) {
+  y[(first_column + channel) * y_stride + row] = tables[3 * 64 + channel] * sum;
+}
 
 // The four numbers of a block in a channel, by index: what kernels/colour_texture.hpp says.
 vec4 palette(uint colours, uint channel) {
@@ -60,10 +63,6 @@ vec4 palette(uint colours, uint channel) {
   float b_third = b * third;
   return vec4(a, b, a_third + a_third + b_third, a_third + (b_third + b_third));
 #endif
-}
-
-void write_sum(uint channel, uint row, float sum) {
-  y[(first_column + channel) * y_stride + row] = tables[3 * 64 + channel] * sum;
 }
 
 void main() {
@@ -90,19 +89,5 @@ void main() {
         sum[c][r] += dot(part, mix(mix(number.xxxx, number.yyyy, low[r]), mix(number.zzzz, number.wwww, low[r]), high[r]));
     }
   }
-#if LANES > 1
-  for (uint c = 0; c < CHANNELS; ++c) sums[c][gl_LocalInvocationID.x] = sum[c];
-  for (uint width = LANES / 2; width > 0; width /= 2) {
-    barrier();
-    if (lane < width)
-      for (uint c = 0; c < CHANNELS; ++c) sums[c][gl_LocalInvocationID.x] += sums[c][gl_LocalInvocationID.x + width];
-  }
-  barrier();
-  if (present && lane < 4 * CHANNELS)
-    write_sum(lane / 4, first_row + lane % 4, sums[lane / 4][gl_LocalInvocationID.x - lane][lane % 4]);
-#else
-  if (present)
-    for (uint c = 0; c < CHANNELS; ++c)
-      for (uint r = 0; r < 4; ++r) write_sum(c, first_row + r, sum[c][r]);
-#endif
+  write_four_rows(sum, present, first_row);
 }

@@ -46,6 +46,14 @@ TEST_F(Device, IsDescribedByInfo) {
   EXPECT_TRUE(json("cpu.json")["device"].is_null());
 }
 
+TEST_F(Device, RefusesFactorsInDoublePrecisionWithAListOfWhatItTakes) {
+  const ProcessResult result =
+      run({"solve", "cube", "--patches", "54", "--device", "gl", "--operator", "svd:k=4,storage=f64"});
+  EXPECT_EQ(result.exit_code, 2);
+  for (const char* part : {"svd:k=4", "storage=f64", "--device gl", "dense:f32", "neumann-sparse"})
+    EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
+}
+
 TEST_F(Device, IsNamedByEveryResultOfAComparison) {
   const ProcessResult result =
       run({"compare", "cornell-box-closed", "--patches", "150", "--device", "gl", "--operators", "dense:f32",

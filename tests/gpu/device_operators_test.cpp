@@ -6,13 +6,16 @@
 #include "tests/conformance/transport_cases.hpp"
 #include "tests/gpu/device_test.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <string>
+#include <vector>
 
 namespace radiosity {
 namespace {
 
 double storage_roundoff(const std::string& spec) {
+  if (spec.find("f64") != std::string::npos) return 0x1p-53;
   return spec.find("f16") != std::string::npos ? 0x1p-11 : 0x1p-24;
 }
 
@@ -139,14 +142,48 @@ TEST_F(DeviceUses, TakeAFairPartOfTheTimeOfALargeProduct) {
   EXPECT_GT(on_device, 0.05 * in_all);
 }
 
+/// Each is compared with the CPU's product when it is copied.
+TEST_F(DeviceUses, AreThereForEveryOperatorOfTheRegistryAndForWhatIsSaidToBeTaken) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  const FormFactors form_factors = random_room(70);
+  std::vector<std::string> specs = uploadable_specs();
+  for (const OperatorEntry& entry : registry.entries()) {
+    specs.push_back(entry.defaults);
+    specs.insert(specs.end(), entry.variants.begin(), entry.variants.end());
+  }
+  for (const std::string& spec : specs) {
+    if (spec.find("global=1") != std::string::npos) continue;  // its factors are on the CPU
+    EXPECT_TRUE(registry.make(spec, form_factors)->device_use().has_value()) << spec;
+  }
+}
+
 TEST_F(DeviceUses, OfOperatorsWithoutAFormForTheDeviceAreRefusedWithAListOfThoseThatHaveOne) {
   const auto registry = gl_operators(device(), cpu_operators());
-  for (const char* spec : {"topk", "dense", "dense:f64"}) try {
+  for (const char* spec : {"svd:k=2,storage=f64", "qr:k=2,storage=f64"}) try {
       registry.make(spec, random_room(6));
       ADD_FAILURE() << spec << " was not refused";
     } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find("dense:f32, dense:f16"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("dense:f64, dense:f32, dense:f16"), std::string::npos)
+          << error.what();
     }
+}
+
+/// 64 columns are on the device at a time, and three channels do not divide them.
+TEST_F(LimitedDevice, KeepsTheChannelsOfManyColumnsApart) {
+  constexpr Index n = 70;
+  Eigen::MatrixXd reflectance(n, 3);
+  reflectance << Eigen::VectorXd::Constant(n, 0.2), Eigen::VectorXd::Constant(n, 0.5),
+      Eigen::VectorXd::Constant(n, 0.8);
+  const FormFactors form_factors =
+      symmetric_form_factors(random_kernel(n, 5), Eigen::VectorXd::Ones(n), reflectance);
+  const Field X = Field::Random(n, 3 * 25);
+  for (const char* spec : {"dxt:reorder=none", "dxt:codec=bf16,reorder=none", "dense:f32"}) {
+    Field Y(n, X.cols());
+    Field Z(n, X.cols());
+    cpu_operators().make(spec, form_factors)->apply(X, Y);
+    gl_operators(device(), cpu_operators()).make(spec, form_factors)->apply(X, Z);
+    EXPECT_LE((Y - Z).norm(), 1e-6 * Y.norm()) << spec;
+  }
 }
 
 /// A device that loses one entry of 130 x 130 is found out by the comparison with its original.
@@ -199,6 +236,13 @@ std::string spec_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
+/// Whether operators of a spec are made of symmetric kernels alone.
+bool takes_symmetric_kernels_alone(const std::string& spec) {
+  for (const char* part : {"norm=area", "sides=two", "quantized", "topk", "matrix=kernel"})
+    if (spec.find(part) != std::string::npos) return true;
+  return false;
+}
+
 /// Operators that are made of approximations: the plain reference is the CPU's operator, entry by entry.
 class DeviceCopies : public DeviceOperators {
  protected:
@@ -210,20 +254,26 @@ class DeviceCopies : public DeviceOperators {
   static std::string without_strategy(const std::string& spec) {
     return spec.substr(0, spec.size() - strategy().size());
   }
-  static std::string with_strategy(const std::string& spec) { return spec + strategy(); }
+  /// Closures are around what is on the device: their key comes last.
+  static std::string with_strategy(const std::string& spec) {
+    const std::size_t closure = std::min(spec.find(",closure="), spec.size());
+    return spec.substr(0, closure) + strategy() + spec.substr(closure);
+  }
 };
 
 TEST_P(DeviceCopies, MultiplyAsTheOperatorThatTheyAreCopiesOf) {
   for (const Index n : {1, 70})
     for (const TransportCase& data : transport_cases(n)) {
-      if (!data.form_factors.symmetric() && GetParam().find("norm=area") != std::string::npos) continue;
+      if (!data.form_factors.symmetric() && takes_symmetric_kernels_alone(GetParam())) continue;
       SCOPED_TRACE(data.name);
       const auto original = cpu_operators().make(without_strategy(GetParam()), data.form_factors);
       const auto copy = registry().make(GetParam(), data.form_factors);
       EXPECT_EQ(copy->describe(), with_strategy(original->describe()));
       EXPECT_EQ(copy->symmetric(), original->symmetric());
       EXPECT_EQ(copy->global(), original->global());
-      EXPECT_EQ(check_operator(*copy, own_entries(*original)), "");
+      OperatorReference entries = own_entries(*original);
+      entries.unit_roundoff = std::max(entries.unit_roundoff, copy->product_roundoff());
+      EXPECT_EQ(check_operator(*copy, entries), "");
       const auto* left = dynamic_cast<const LowRankFactors*>(original.get());
       const auto* right = dynamic_cast<const LowRankFactors*>(copy.get());
       ASSERT_EQ(left == nullptr, right == nullptr);
@@ -236,15 +286,18 @@ TEST_P(DeviceCopies, MultiplyAsTheOperatorThatTheyAreCopiesOf) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stored, DeviceOperators,
-                         testing::Values("dense:f32,strategy=group", "dense:f32,strategy=invocation",
-                                         "dense:f16,strategy=group", "dense:f16,strategy=invocation",
-                                         "csr:f32,strategy=group", "csr:f32,strategy=invocation"),
+                         testing::Values("dense:f64,strategy=group", "csr:f64,strategy=invocation",
+                                         "dense:f64,strategy=invocation", "dense:f32,strategy=group",
+                                         "dense:f32,strategy=invocation", "dense:f16,strategy=group",
+                                         "dense:f16,strategy=invocation", "csr:f32,strategy=group",
+                                         "csr:f32,strategy=invocation"),
                          spec_name);
 
 INSTANTIATE_TEST_SUITE_P(Factors, DeviceCopies,
                          testing::Values("svd:k=8,strategy=group", "svd:k=9,strategy=invocation",
                                          "svd:k=19,norm=area,method=lanczos,strategy=invocation", "2msc:k=8",
-                                         "sparse-v:k=8,strategy=group", "sparse-v:k=7,strategy=invocation",
+                                         "2msc:k=9,sides=two,strategy=group", "sparse-v:k=8,strategy=group",
+                                         "sparse-v:k=7,strategy=invocation",
                                          "svd:k=8,strategy=group,placement=hybrid",
                                          "sparse-v:k=7,strategy=invocation,placement=hybrid"),
                          spec_name);
@@ -255,8 +308,22 @@ INSTANTIATE_TEST_SUITE_P(
     Textures, DeviceCopies,
     testing::Values("dxt:reorder=rows,strategy=group", "dxt:reorder=rows,strategy=invocation",
                     "dxt:bounces=3,reorder=none,map=linear", "dxt:codec=bc4,fill=1,strategy=group",
-                    "dxt:codec=bc4,map=linear,strategy=invocation", "dxt:bounces=2,codec=bc4,range=auto"),
+                    "dxt:codec=bc4,map=linear,strategy=invocation", "dxt:bounces=2,codec=bc4,range=auto",
+                    "dxt:codec=u8,strategy=group", "dxt:bounces=2,codec=f16,reorder=none"),
     spec_name);
+
+INSTANTIATE_TEST_SUITE_P(Tiles, DeviceCopies,
+                         testing::Values("quantized:closure=none,strategy=group",
+                                         "quantized:bits=8,closure=none,strategy=invocation",
+                                         "topk:closure=none,strategy=group",
+                                         "dxt:matrix=kernel,reorder=rows,strategy=group",
+                                         "dxt:matrix=kernel,codec=u4,range=6,fill=1,strategy=invocation"),
+                         spec_name);
+
+INSTANTIATE_TEST_SUITE_P(Series, DeviceCopies,
+                         testing::Values("neumann-sparse:bounces=99,strategy=group",
+                                         "neumann-sparse:threshold=1e-3,bounces=3,strategy=invocation"),
+                         spec_name);
 
 }  // namespace
 }  // namespace radiosity

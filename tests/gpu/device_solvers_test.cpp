@@ -63,11 +63,12 @@ TEST_F(DeviceSolvers, IterateWithEveryFormOfAnOperatorThatStandsForT) {
   const TransportCase data = coloured_room();
   const Field E = lights(data);
   for (const char* spec : {"csr:f32", "dense:f16", "svd:k=8", "2msc:k=8", "svd:k=8,norm=area,method=lanczos",
-                           "sparse-v:k=8", "dxt:reorder=rows", "dxt:codec=bc4,reorder=morton"}) {
+                           "sparse-v:k=8", "dxt:reorder=rows", "dxt:codec=bc4,reorder=morton",
+                           "quantized:closure=none", "dxt:matrix=kernel,codec=u8,reorder=rows"}) {
     SCOPED_TRACE(spec);
     const auto transport = on_device(spec, data.form_factors);
     const Field B = solve(*solver("gmres", *transport, data.root_area), E);
-    const auto on = dynamic_cast<const OnDevice&>(*transport).transport_on_device().value();
+    const auto on = transport_on_device(*transport).value();
     NeumannOnDevice neumann(on, data.root_area);
     neumann.start(E);
     neumann.advance(200);
@@ -83,10 +84,10 @@ TEST_F(DeviceSolvers, IterateWithEveryFormOfAnOperatorThatStandsForT) {
 TEST_F(DeviceSolvers, ReadNoFieldBackBetweenSteps) {
   const TransportCase data = coloured_room();
   const auto transport = on_device("dense:f32", data.form_factors);
-  const auto on = dynamic_cast<const OnDevice&>(*transport).transport_on_device().value();
+  const auto on = transport_on_device(*transport).value();
   const auto& kernel = dynamic_cast<const KernelOperator&>(*transport);
   NeumannOnDevice neumann(on, data.root_area);
-  ConjugateGradientsOnDevice gradients(*on.matrix, kernel);
+  ConjugateGradientsOnDevice gradients(on, kernel);
   for (DeviceIteration* iteration :
        {static_cast<DeviceIteration*>(&neumann), static_cast<DeviceIteration*>(&gradients)}) {
     iteration->start(lights(data));
@@ -112,7 +113,7 @@ TEST_F(DeviceSolvers, ShowTheResidualAndTheRadiosityThatTheDeviceHasBetweenSteps
   const TransportCase data = coloured_room();
   const Field E = lights(data);
   const auto transport = on_device("dense:f32", data.form_factors);
-  const auto on = dynamic_cast<const OnDevice&>(*transport).transport_on_device().value();
+  const auto on = transport_on_device(*transport).value();
   NeumannOnDevice neumann(on, data.root_area);
   neumann.start(E);
   const Eigen::RowVectorXd seen = neumann.advance(3);
@@ -146,12 +147,12 @@ TEST_F(DeviceSolvers, AddUpInSharedMemoryOrWithoutItToTheSameNorms) {
   const TransportCase data = coloured_room();
   const Field E = lights(data);
   const auto transport = on_device("dense:f32", data.form_factors);
-  const auto on = dynamic_cast<const OnDevice&>(*transport).transport_on_device().value();
+  const auto on = transport_on_device(*transport).value();
   const auto& kernel = dynamic_cast<const KernelOperator&>(*transport);
   NeumannOnDevice shared_sum(on, data.root_area, RowStrategy::group);
   NeumannOnDevice plain_sum(on, data.root_area, RowStrategy::invocation);
-  ConjugateGradientsOnDevice shared_steps(*on.matrix, kernel, RowStrategy::group);
-  ConjugateGradientsOnDevice plain_steps(*on.matrix, kernel, RowStrategy::invocation);
+  ConjugateGradientsOnDevice shared_steps(on, kernel, RowStrategy::group);
+  ConjugateGradientsOnDevice plain_steps(on, kernel, RowStrategy::invocation);
   for (const auto& [shared, plain] : {std::pair<DeviceIteration*, DeviceIteration*>{&shared_sum, &plain_sum},
                                       {&shared_steps, &plain_steps}}) {
     shared->start(E);

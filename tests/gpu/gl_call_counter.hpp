@@ -13,7 +13,7 @@ namespace radiosity {
   X(glActiveTexture) X(glAttachShader) X(glBeginQuery) X(glBindBuffer) X(glBindBufferBase) \
   X(glBindBufferRange) X(glBindFramebuffer) X(glBindRenderbuffer) X(glBindTexture) X(glBindVertexArray) \
   X(glBufferData) X(glBufferSubData) X(glClear) X(glClearBufferData) X(glClearBufferuiv) X(glClearColor) X(glClientWaitSync) X(glCompileShader) \
-  X(glCreateProgram) X(glCreateShader) X(glDebugMessageCallback) X(glDeleteBuffers) \
+  X(glCompressedTexSubImage2D) X(glCreateProgram) X(glCreateShader) X(glDebugMessageCallback) X(glDeleteBuffers) \
   X(glDeleteFramebuffers) X(glDeleteProgram) X(glDeleteQueries) X(glDeleteRenderbuffers) \
   X(glDeleteShader) X(glDeleteSync) X(glDeleteTextures) X(glDeleteVertexArrays) X(glDisable) \
   X(glDispatchCompute) X(glDrawArrays) X(glDrawBuffer) X(glDrawElements) X(glEnable) \
@@ -24,7 +24,7 @@ namespace radiosity {
   X(glGetProgramiv) X(glGetQueryObjectui64v) X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) \
   X(glGetUniformLocation) X(glLinkProgram) X(glMapBufferRange) X(glMemoryBarrier) X(glPixelStorei) \
   X(glQueryCounter) X(glReadPixels) X(glRenderbufferStorage) X(glShaderSource) X(glTexParameteri) \
-  X(glTexStorage3D) X(glUniform1ui) X(glUnmapBuffer) X(glUseProgram) X(glVertexAttribPointer) \
+  X(glTexStorage2D) X(glTexStorage3D) X(glUniform1ui) X(glUnmapBuffer) X(glUseProgram) X(glVertexAttribPointer) \
   X(glViewport)
 // clang-format on
 

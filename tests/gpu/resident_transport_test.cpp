@@ -42,9 +42,20 @@ double allowed(const Field& expected) {
 }
 
 /// One of every kind that a device multiplies with.
-const std::vector<std::string> transports = {
-    "dense:f32",     "dense:f16",   "csr:f32", "svd:k=20",      "svd:k=20,norm=area,method=lanczos",
-    "sparse-v:k=20", "bounces:k=3", "dxt",     "dxt:codec=bc4", "dxt:bounces=3,reorder=rows"};
+const std::vector<std::string> transports = {"dense:f32",
+                                             "dense:f16",
+                                             "csr:f32",
+                                             "svd:k=20",
+                                             "svd:k=20,norm=area,method=lanczos",
+                                             "sparse-v:k=20",
+                                             "bounces:k=3",
+                                             "dxt",
+                                             "dxt:codec=bc4",
+                                             "dxt:bounces=3,reorder=rows",
+                                             "quantized:closure=none",
+                                             "topk:closure=none",
+                                             "dxt:matrix=kernel,reorder=rows",
+                                             "neumann-sparse:threshold=1e-4"};
 
 class FrameTransport : public DeviceTest {
  protected:

@@ -17,15 +17,31 @@ inline std::vector<ShaderVariant> shader_variants() {
   }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
-      variants.push_back({"bc4_product.comp",
-                          {{"COLUMNS", 4}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
-      variants.push_back(
-          {"csr_rows.comp",
-           {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}, {"NARROW", present}, {"ADDS", present}}});
+      variants.push_back({"csr_rows.comp",
+                          {{"COLUMNS", 4},
+                           {"INVOCATIONS", 128},
+                           {"LANES", lanes},
+                           {"DOUBLE", 1 - present},
+                           {"NARROW", present},
+                           {"ADDS", present}}});
       variants.push_back(
           {"texture_product.comp",
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
+      variants.push_back(
+          {"texture_sampled.comp",
+           {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
+  for (const int code : {0, 1, 2, 3, 4, 5})
+    for (const int present : {0, 1})
+      variants.push_back({"tile_product.comp",
+                          {{"COLUMNS", 4},
+                           {"CODE", code},
+                           {"BITS", present == 1 ? 2 : 8},
+                           {"BLOCK", present == 1 ? 16 : 64},
+                           {"LOGARITHMIC", present},
+                           {"SYMMETRIC", present},
+                           {"INVOCATIONS", 64},
+                           {"LANES", present == 1 ? 64 : 1}}});
   for (const int lanes : {1, 32}) variants.push_back({"patch_emission.comp", {{"LANES", lanes}}});
   for (const int layers : {1, 6})
     for (const char* stage : {"shadow.geom", "injection.geom"})
@@ -33,6 +49,8 @@ inline std::vector<ShaderVariant> shader_variants() {
   for (const char* plain : {"vertex_light.comp", "shadow.vert", "shadow.frag", "frame.vert", "frame.frag",
                             "injection.frag", "injection_sums.comp", "injection_emission.comp"})
     variants.push_back({plain, {}});
+  for (const int lanes : {1, 16})
+    variants.push_back({"dense_double.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
   variants.push_back({"tall_transposed_wide.comp", {{"COLUMNS", 4}, {"SHARE", 2}}});
   variants.push_back({"tall_product_wide.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
