@@ -40,6 +40,7 @@ class CsrOnDevice final : public DeviceMatrix {
   };
   void upload_block(const CsrMatrix<float>& matrix, Index first_row, Index end_row);
   GlBuffer upload_columns(const std::int32_t* columns, std::size_t count) const;
+  void bind(const Block& block) const;
   /// For `count` columns first, first + step, ...
   void dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const;
 

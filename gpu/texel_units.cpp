@@ -7,13 +7,25 @@
 namespace radiosity {
 namespace {
 
-GLenum format_of(Texel texel) {
-  if (texel == Texel::four_floats) return GL_RGBA32F;
-  return texel == Texel::four_halves ? GL_RGBA16F : GL_RGBA32UI;
-}
+struct TexelFormat {
+  GLenum name;
+  int bytes;
+};
 
-std::int64_t bytes_of(Texel texel) {
-  return texel == Texel::four_halves ? 8 : 16;
+TexelFormat format_of(Texel texel) {
+  switch (texel) {
+    case Texel::one_float:
+      return {GL_R32F, 4};
+    case Texel::four_floats:
+      return {GL_RGBA32F, 16};
+    case Texel::four_halves:
+      return {GL_RGBA16F, 8};
+    case Texel::four_shorts:
+      return {GL_RGBA16UI, 8};
+    case Texel::four_words:
+      break;
+  }
+  return {GL_RGBA32UI, 16};
 }
 
 }  // namespace
@@ -45,15 +57,16 @@ void TexelUnits::show_bound(unsigned unit, Texel texel, unsigned binding) {
 void TexelUnits::show_range(unsigned unit, Texel texel, unsigned buffer, std::int64_t offset,
                             std::int64_t bytes) {
   if (most_texels_ == 0) glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels_);
-  if (bytes / bytes_of(texel) > most_texels_)
+  const TexelFormat format = format_of(texel);
+  if (bytes / format.bytes > most_texels_)
     fail("a buffer has {} texels, and '{}' reads at most {}: use strategy=group or fewer patches",
-         bytes / bytes_of(texel), context_->renderer(), most_texels_);
+         bytes / format.bytes, context_->renderer(), most_texels_);
   glActiveTexture(GL_TEXTURE0 + unit);
   if (textures_[unit] == 0) {
     glGenTextures(1, &textures_[unit]);
     glBindTexture(GL_TEXTURE_BUFFER, textures_[unit]);  // for good: there are no others of this kind
   }
-  glTexBufferRange(GL_TEXTURE_BUFFER, format_of(texel), buffer, offset, bytes);
+  glTexBufferRange(GL_TEXTURE_BUFFER, format.name, buffer, offset, bytes);
 }
 
 }  // namespace radiosity

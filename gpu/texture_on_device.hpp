@@ -7,6 +7,7 @@
 #include "kernels/exact_rows.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace radiosity {
@@ -30,6 +31,7 @@ class TextureOnDevice final : public DeviceMatrix {
 
  private:
   void upload_tables(const ColourTexture& texture);
+  void upload_palettes(const ColourTexture& texture);
   void dispatch_part(const StoredRows::Part& part, Index first_column) const;
 
   Index channels_;
@@ -39,6 +41,7 @@ class TextureOnDevice final : public DeviceMatrix {
   const GlProgram* program_ = nullptr;  ///< the device's
   StoredRows blocks_;                   ///< a row for four of the matrix
   GlBuffer tables_;  ///< of ColourTexture, and the part that each channel's scale is of scale()
+  std::optional<GlBuffer> palettes_;  ///< of logarithmic textures, read as texels
   std::vector<std::unique_ptr<CsrOnDevice>> exact_;
 };
 

@@ -1,5 +1,5 @@
 // Y = M X for COLUMNS columns and a sparse M by compressed rows. LANES of the INVOCATIONS of a
-// work group walk along a row side by side; with one there is nothing to put together. ADDS: Y += M X.
+// work group walk along a row side by side. ADDS: Y += M X.
 #include "groups.glsl"
 
 layout(local_size_x = INVOCATIONS) in;
@@ -35,9 +35,7 @@ void write_sum(uint c, uint row, float sum) {
   y[place] = sum;
 }
 
-#if LANES > 1
 shared float sums[COLUMNS][INVOCATIONS];
-#endif
 
 void main() {
   uint lane = gl_LocalInvocationID.x % LANES;
@@ -51,7 +49,6 @@ void main() {
     uint column = column_of(i);
     for (uint c = 0; c < COLUMNS; ++c) sum[c] += value * x[(first_column + c * column_step) * x_stride + column];
   }
-#if LANES > 1
   for (uint c = 0; c < COLUMNS; ++c) sums[c][gl_LocalInvocationID.x] = sum[c];
   for (uint width = LANES / 2; width > 0; width /= 2) {
     barrier();
@@ -60,8 +57,4 @@ void main() {
   }
   barrier();
   if (present && lane < COLUMNS) write_sum(lane, row, sums[lane][gl_LocalInvocationID.x - lane]);
-#else
-  if (present)
-    for (uint c = 0; c < COLUMNS; ++c) write_sum(c, row, sum[c]);
-#endif
 }

@@ -17,13 +17,16 @@ inline std::vector<ShaderVariant> shader_variants() {
     for (const int present : {0, 1}) {
       variants.push_back({"bc4_product.comp",
                           {{"COLUMNS", 4}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
-      variants.push_back(
-          {"csr_rows.comp",
-           {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", lanes}, {"NARROW", present}, {"ADDS", present}}});
-      variants.push_back(
-          {"texture_product.comp",
-           {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
+  for (const int present : {0, 1}) {
+    variants.push_back(
+        {"csr_rows.comp",
+         {{"COLUMNS", 4}, {"INVOCATIONS", 128}, {"LANES", 32}, {"NARROW", present}, {"ADDS", present}}});
+    variants.push_back({"csr_texels.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"ADDS", present}}});
+    variants.push_back(
+        {"texture_product.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}}});
+    variants.push_back({"texture_texels.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}}});
+  }
   for (const int lanes : {1, 32}) variants.push_back({"patch_emission.comp", {{"LANES", lanes}}});
   for (const int layers : {1, 6})
     for (const char* stage : {"shadow.geom", "injection.geom"})
