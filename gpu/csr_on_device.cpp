@@ -11,6 +11,10 @@ namespace {
 constexpr unsigned values_binding = 0;
 constexpr unsigned columns_binding = 3;
 constexpr unsigned row_begin_binding = 4;
+constexpr unsigned values_unit = 0;
+constexpr unsigned x_of_rows_unit = 1;
+constexpr unsigned columns_unit = 2;
+constexpr std::size_t entries_of_texel = 4;
 /// Invocations of a work group, and how many of them share a row.
 struct RowSharing {
   int invocations;
@@ -25,6 +29,8 @@ const RowSharing& sharing_of(RowStrategy strategy) {
 
 ShaderFamily shaders_of_rows(RowStrategy strategy, bool in_double, bool narrow, bool adds) {
   const RowSharing& sharing = sharing_of(strategy);
+  if (strategy == RowStrategy::invocation && !in_double)
+    return {"csr_texels.comp", {{"INVOCATIONS", sharing.invocations}, {"ADDS", adds ? 1 : 0}}};
   return {"csr_rows.comp",
           {{"INVOCATIONS", sharing.invocations},
            {"LANES", sharing.lanes},
@@ -51,10 +57,13 @@ Index end_of_block(const CsrMatrix<Scalar>& matrix, Index first, const GlContext
   return end;
 }
 
+/// With zeros up to whole texels.
 template <typename Number>
 GlBuffer buffer_of(const std::shared_ptr<const GlContext>& context, const Number* numbers,
                    std::size_t count) {
-  GlBuffer buffer(context, std::max<std::size_t>(count * sizeof(Number), 4));
+  const std::size_t texels = std::max<std::size_t>((count + entries_of_texel - 1) / entries_of_texel, 1);
+  GlBuffer buffer(context, texels * entries_of_texel * sizeof(Number));
+  if (count % entries_of_texel > 0) buffer.clear();
   if (count > 0) buffer.write(0, count * sizeof(Number), numbers);
   return buffer;
 }
@@ -95,8 +104,7 @@ void CsrOnDevice<Scalar>::upload_block(const CsrMatrix<Scalar>& matrix, Index fi
 template <typename Scalar>
 GlBuffer CsrOnDevice<Scalar>::upload_columns(const std::int32_t* columns, std::size_t count) const {
   if (!narrow_) return buffer_of(device().context(), columns, count);
-  std::vector<std::uint16_t> narrow(columns, columns + count);
-  narrow.resize(count + count % 2);  // shaders read two at a time
+  const std::vector<std::uint16_t> narrow(columns, columns + count);
   return buffer_of(device().context(), narrow.data(), narrow.size());
 }
 
@@ -127,13 +135,24 @@ void CsrOnDevice<Scalar>::dispatch_sum(Index first, Index step, Index columns) c
 }
 
 template <typename Scalar>
+void CsrOnDevice<Scalar>::bind(const Block& block) const {
+  block.row_begin.bind(row_begin_binding);
+  if (by_texels()) {
+    device().texels().show(values_unit, Texel::four_floats, block.values);
+    device().texels().show(columns_unit, narrow_ ? Texel::four_shorts : Texel::four_words, block.columns);
+  } else {
+    block.values.bind(values_binding);
+    block.columns.bind(columns_binding);
+  }
+}
+
+template <typename Scalar>
 void CsrOnDevice<Scalar>::dispatch_rows(const ShaderFamily& shaders, Index first, Index step,
                                         Index count) const {
   const Index rows_together = sharing_of(strategy_).invocations / sharing_of(strategy_).lanes;
+  if (by_texels()) device().texels().show_bound(x_of_rows_unit, Texel::one_float, FieldBuffers::x_binding);
   for (const Block& block : blocks_) {
-    block.values.bind(values_binding);
-    block.columns.bind(columns_binding);
-    block.row_begin.bind(row_begin_binding);
+    bind(block);
     shaders.for_columns(device(), count, [&](const GlProgram& program, Index column) {
       program.set("first_row", block.first_row);
       program.set("block_rows", block.rows);

@@ -44,6 +44,9 @@ class CsrOnDevice final : public DeviceMatrix {
   };
   void upload_block(const CsrMatrix<Scalar>& matrix, Index first_row, Index end_row);
   GlBuffer upload_columns(const std::int32_t* columns, std::size_t count) const;
+  /// Textures have no texels in double precision.
+  bool by_texels() const { return strategy_ == RowStrategy::invocation && !in_double(); }
+  void bind(const Block& block) const;
   /// For `count` columns first, first + step, ...
   void dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const;
 

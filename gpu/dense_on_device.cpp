@@ -9,10 +9,12 @@ namespace {
 
 /// Rows that are sent together: those of a tile row.
 constexpr Index strip_rows = 64;
+/// Of storage blocks and of texture units.
 constexpr unsigned entries_binding = 0;
+constexpr unsigned x_unit = 1;
 constexpr int rows_of_group = 4;
 constexpr int invocations_of_group = 128;
-constexpr int rows_of_invocation = 4;
+constexpr Index rows_of_vector = 8;
 
 /// In double precision LANES share a row.
 constexpr int invocations_of_double_group = 64;
@@ -24,14 +26,20 @@ ShaderFamily shaders_for(RowStrategy strategy) {
     return {"dense_double.comp",
             {{"INVOCATIONS", invocations_of_double_group},
              {"LANES", strategy == RowStrategy::group ? lanes_in_double : 1}}};
-  const int half = std::is_same_v<Scalar, Half> ? 1 : 0;
   if (strategy == RowStrategy::group)
     return {"dense_group.comp",
-            {{"HALF", half}, {"ROWS", rows_of_group}, {"INVOCATIONS", invocations_of_group}}};
-  return {"dense_invocation.comp",
-          {{"HALF", half},
-           {"INVOCATIONS", static_cast<int>(strip_rows) / rows_of_invocation},
-           {"SHARE", rows_of_invocation}}};
+            {{"HALF", std::is_same_v<Scalar, Half> ? 1 : 0},
+             {"ROWS", rows_of_group},
+             {"INVOCATIONS", invocations_of_group}}};
+  return {"dense_texels.comp", {}};
+}
+
+template <typename Scalar>
+Index rows_of_work_group(RowStrategy strategy) {
+  const bool shared = strategy == RowStrategy::group;
+  if (std::is_same_v<Scalar, double>)
+    return shared ? invocations_of_double_group / lanes_in_double : invocations_of_double_group;
+  return shared ? rows_of_group : rows_of_vector;
 }
 
 /// The rows 64 I ... of a symmetric matrix: its tiles (I, J) for J >= I, and (J, I) transposed.
@@ -97,10 +105,16 @@ ByteCount DenseOnDevice<Scalar>::bytes() const {
 
 template <typename Scalar>
 void DenseOnDevice<Scalar>::dispatch(Index columns) const {
-  const Index rows_of_shared = in_double() ? invocations_of_double_group / lanes_in_double : rows_of_group;
-  const Index rows_together = strategy_ == RowStrategy::group ? rows_of_shared : strip_rows;
+  constexpr Texel four_entries = std::is_same_v<Scalar, Half> ? Texel::four_halves : Texel::four_floats;
+  const bool by_texels = strategy_ == RowStrategy::invocation && !in_double();
+  const Index rows_together = rows_of_work_group<Scalar>(strategy_);
+  TexelUnits& texels = device().texels();
+  if (by_texels) texels.show_bound(x_unit, Texel::four_floats, FieldBuffers::x_binding);
   for (const StoredRows::Part& part : strips_.parts()) {
-    part.buffer.bind(entries_binding);
+    if (by_texels)
+      texels.show(entries_binding, four_entries, part.buffer);
+    else
+      part.buffer.bind(entries_binding);
     shaders_.for_columns(device(), columns, [&](const GlProgram& program, Index first_column) {
       program.set("row_quads", stride_ / 4);
       program.set("first_row", part.first_row * strip_rows);

@@ -3,6 +3,7 @@
 #include "gpu/field_buffers.hpp"
 #include "gpu/gl_program.hpp"
 #include "gpu/gl_timer.hpp"
+#include "gpu/texel_units.hpp"
 
 #include <memory>
 #include <string>
@@ -12,12 +13,13 @@
 namespace radiosity {
 
 /// How rows of a matrix are shared out: a work group for some rows, whose sums are put together in shared
-/// memory, so that neighbouring invocations read neighbouring numbers (graphics cards); or a row for each
-/// invocation, without shared memory and barriers (drivers that compute on the CPU).
+/// memory, so that neighbouring invocations read neighbouring numbers (graphics cards); or rows for each
+/// invocation, without shared memory and barriers, or for eight, one vector of the processor, which read
+/// texels (drivers that compute on the CPU).
 enum class RowStrategy { group, invocation };
 
-/// A context with what all operators on it share: compiled shaders, the buffers that fields pass through, a
-/// timer. Everything but open() is called with the context current.
+/// A context with what all operators on it share: compiled shaders, the buffers that fields pass through,
+/// texture units, a timer. Everything but open() is called with the context current.
 class GlDevice {
  public:
   static std::shared_ptr<GlDevice> open(const GlContextOptions& options = {});
@@ -25,6 +27,7 @@ class GlDevice {
   const std::shared_ptr<const GlContext>& context() const { return context_; }
   FieldBuffers& fields() { return fields_; }
   GlTimer& timer() { return timer_; }
+  TexelUnits& texels() { return texels_; }
   /// Compiled when it is asked for first.
   const GlProgram& program(const ShaderVariant& variant);
   /// Has it begin with what was asked of it, while the CPU goes on.
@@ -36,11 +39,12 @@ class GlDevice {
 
  private:
   explicit GlDevice(const std::shared_ptr<const GlContext>& context)
-      : context_(context), fields_(context), timer_(context) {}
+      : context_(context), fields_(context), timer_(context), texels_(context) {}
 
   std::shared_ptr<const GlContext> context_;
   FieldBuffers fields_;
   GlTimer timer_;
+  TexelUnits texels_;
   std::vector<std::pair<ShaderVariant, std::unique_ptr<GlProgram>>> programs_;
 };
 

@@ -10,14 +10,37 @@
 namespace radiosity {
 namespace {
 
+/// Of storage blocks and of texture units.
 constexpr unsigned blocks_binding = 0;
 constexpr unsigned tables_binding = 3;
+constexpr unsigned field_unit = 1;
+constexpr unsigned palettes_unit = 2;
 constexpr int invocations_of_texture_group = 64;
+constexpr Index block_rows_of_vector = 4;
 constexpr std::size_t table_numbers = std::size_t{3} * texture_table;
 
-/// Invocations that share a row of blocks.
-int lanes_of(RowStrategy strategy) {
-  return strategy == RowStrategy::group ? invocations_of_texture_group : 1;
+ShaderVariant shader_for(const ColourTexture& texture, RowStrategy strategy) {
+  ShaderVariant variant{
+      "texture_texels.comp",
+      {{"CHANNELS", texture.channels()}, {"LOGARITHMIC", texture.curve().logarithmic ? 1 : 0}}};
+  if (strategy == RowStrategy::group) {
+    variant.file = "texture_product.comp";
+    variant.defines.emplace_back("INVOCATIONS", invocations_of_texture_group);
+  }
+  return variant;
+}
+
+/// The palettes of a logarithmic colour channel, as ColourTexture says, by second code and then by first.
+void append_palettes(const float* table, int largest, std::vector<float>& palettes) {
+  for (int second = 0; second <= largest; ++second)
+    for (int first = 0; first <= largest; ++first) {
+      const float A = table[first];
+      const float B = table[second];
+      const bool none = first == 0 && second == 0;
+      for (const float number : {first == 0 ? 0 : A * A * A, second == 0 ? 0 : B * B * B,
+                                 none ? 0 : A * A * B, none ? 0 : A * (B * B)})
+        palettes.push_back(number);
+    }
 }
 
 StoredRows rows_of_blocks(const std::shared_ptr<const GlContext>& context, const ColourTexture& texture) {
@@ -65,11 +88,8 @@ TextureOnDevice::TextureOnDevice(const std::shared_ptr<GlDevice>& device_of_text
       tables_(empty_tables(device_of_texture->context())) {
   const CurrentContext current(*device().context());
   upload_tables(texture);
-  program_ = &device().program({"texture_product.comp",
-                                {{"CHANNELS", texture.channels()},
-                                 {"LOGARITHMIC", texture.curve().logarithmic ? 1 : 0},
-                                 {"INVOCATIONS", invocations_of_texture_group},
-                                 {"LANES", lanes_of(strategy)}}});
+  if (strategy == RowStrategy::invocation && texture.curve().logarithmic) upload_palettes(texture);
+  program_ = &device().program(shader_for(texture, strategy));
 }
 
 void TextureOnDevice::upload_tables(const ColourTexture& texture) {
@@ -81,15 +101,36 @@ void TextureOnDevice::upload_tables(const ColourTexture& texture) {
   tables_.write(0, sizeof numbers, numbers.data());
 }
 
+void TextureOnDevice::upload_palettes(const ColourTexture& texture) {
+  std::vector<float> palettes;
+  for (int channel = 0; channel < texture.channels(); ++channel) {
+    const int colour = texture.colour_channel(channel);
+    append_palettes(texture.tables() + colour * texture_table, bc1_largest(colour), palettes);
+  }
+  palettes_.emplace(device().context(), palettes.size() * sizeof(float));
+  palettes_->write(0, palettes_->bytes(), palettes.data());
+}
+
+std::size_t TextureOnDevice::texel_bytes() const {
+  return tables_.bytes() + (palettes_ ? palettes_->bytes() : 0) + blocks_.bytes();
+}
+
 void TextureOnDevice::dispatch_texels(Index columns) const {
+  if (strategy() == RowStrategy::invocation)
+    device().texels().show_bound(field_unit, Texel::four_floats, FieldBuffers::x_binding);
+  if (palettes_) device().texels().show(palettes_unit, Texel::four_floats, *palettes_);
   for (const StoredRows::Part& part : blocks_.parts())
     for (Index first = 0; first < columns; first += channels()) dispatch_part(part, first);
 }
 
 void TextureOnDevice::dispatch_part(const StoredRows::Part& part, Index first_column) const {
-  part.buffer.bind(blocks_binding);
+  const bool by_texels = strategy() == RowStrategy::invocation;
+  if (by_texels)
+    device().texels().show(blocks_binding, Texel::four_words, part.buffer);
+  else
+    part.buffer.bind(blocks_binding);
   tables_.bind(tables_binding);
-  const Index rows_together = invocations_of_texture_group / lanes_of(strategy());
+  const Index rows_together = by_texels ? block_rows_of_vector : 1;
   const GlProgram& program = *program_;
   program.use();
   program.set("block_columns", block_columns_);

@@ -110,8 +110,7 @@ TEST_F(Context, GivesTheLogOfAShaderThatDoesNotCompile) {
 
 TEST_F(Context, RefusesUniformsThatAShaderHasNot) {
   const CurrentContext current(*device()->context());
-  const GlProgram& program = device()->program(
-      {"dense_invocation.comp", {{"COLUMNS", 1}, {"HALF", 0}, {"INVOCATIONS", 64}, {"SHARE", 1}}});
+  const GlProgram& program = device()->program({"dense_texels.comp", {{"COLUMNS", 1}}});
   EXPECT_NE(complaint_of([&] { program.set("no_such_uniform", 1); }).find("no_such_uniform"),
             std::string::npos);
 }

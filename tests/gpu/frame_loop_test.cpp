@@ -77,7 +77,7 @@ TEST_F(FrameLoop, MakesTheSameFewCallsInEveryFrame) {
       EXPECT_EQ(calls, first) << "frame " << k;
     }
   }
-  EXPECT_LE(total(first), 100 + 25 * bounces);
+  EXPECT_LE(total(first), 100 + 28 * bounces);
   EXPECT_EQ(first["glDispatchCompute"], 3 + 2 * bounces) << "the counter counts";
   for (const char* forbidden :
        {"glBufferData", "glTexStorage3D", "glRenderbufferStorage", "glGenBuffers", "glGenTextures",

@@ -19,11 +19,11 @@ namespace radiosity {
   X(glDispatchCompute) X(glDrawArrays) X(glDrawBuffer) X(glDrawElements) X(glEnable) \
   X(glEnableVertexAttribArray) X(glEndQuery) X(glFenceSync) X(glFinish) X(glFlush) \
   X(glFramebufferRenderbuffer) X(glFramebufferTexture) X(glGenBuffers) X(glGenFramebuffers) \
-  X(glGenQueries) X(glGenRenderbuffers) X(glGenTextures) X(glGenVertexArrays) X(glGetBufferSubData) \
-  X(glGetError) X(glGetInteger64v) X(glGetIntegeri_v) X(glGetIntegerv) X(glGetProgramInfoLog) \
+  X(glGenQueries) X(glGenRenderbuffers) X(glGenTextures) X(glGenVertexArrays) X(glGetBufferParameteri64v) X(glGetBufferSubData) \
+  X(glGetError) X(glGetInteger64i_v) X(glGetInteger64v) X(glGetIntegeri_v) X(glGetIntegerv) X(glGetProgramInfoLog) \
   X(glGetProgramiv) X(glGetQueryObjectui64v) X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) \
   X(glGetUniformLocation) X(glLinkProgram) X(glMapBufferRange) X(glMemoryBarrier) X(glPixelStorei) \
-  X(glQueryCounter) X(glReadPixels) X(glRenderbufferStorage) X(glShaderSource) X(glTexParameteri) \
+  X(glQueryCounter) X(glReadPixels) X(glRenderbufferStorage) X(glShaderSource) X(glTexBufferRange) X(glTexParameteri) \
   X(glTexStorage2D) X(glTexStorage3D) X(glUniform1ui) X(glUnmapBuffer) X(glUseProgram) X(glVertexAttribPointer) \
   X(glViewport)
 // clang-format on

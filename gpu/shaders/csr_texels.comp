@@ -1,0 +1,47 @@
+// What csr_rows.comp computes, on drivers that compute on the CPU (dense_texels.comp says why). Each lane has a row, of
+// which it reads four entries at a time: those of its neighbours too where the row does not begin or end with a four.
+#include "groups.glsl"
+
+layout(local_size_x = INVOCATIONS) in;
+
+layout(binding = 0) uniform samplerBuffer values;    // fours
+layout(binding = 1) uniform samplerBuffer x;         // by columns, single numbers
+layout(binding = 2) uniform usamplerBuffer columns;  // fours
+layout(std430, binding = 4) readonly buffer RowBegin { uint row_begin[]; };
+layout(std430, binding = 2) buffer Y { float y[]; };
+
+uniform uint first_row;   // of the matrix in this block of storage
+uniform uint block_rows;
+uniform uint x_stride;    // between columns
+uniform uint y_stride;
+uniform uint first_column;
+uniform uint column_step;
+
+void main() {
+  uint row = group_index() * INVOCATIONS + gl_LocalInvocationID.x;
+  bool present = row < block_rows;
+  uint begin = present ? row_begin[row] : 0;
+  uint end = present ? row_begin[row + 1] : 0;
+  float sum[COLUMNS];
+  for (uint c = 0; c < COLUMNS; ++c) sum[c] = 0;
+  for (uint four = begin / 4; 4 * four < end; ++four) {
+    uvec4 place = 4 * four + uvec4(0, 1, 2, 3);
+    bvec4 of_row = equal(uvec4(greaterThanEqual(place, uvec4(begin))) & uvec4(lessThan(place, uvec4(end))), uvec4(1));
+    vec4 value = texelFetch(values, int(four));
+    ivec4 column = ivec4(texelFetch(columns, int(four)));
+    for (uint c = 0; c < COLUMNS; ++c) {
+      ivec4 at = column + int((first_column + c * column_step) * x_stride);
+      vec4 part = vec4(texelFetch(x, at.x).x, texelFetch(x, at.y).x, texelFetch(x, at.z).x, texelFetch(x, at.w).x);
+      sum[c] += dot(value, mix(vec4(0), part, of_row));
+    }
+  }
+  if (!present) return;
+  for (uint c = 0; c < COLUMNS; ++c) {
+    uint at = (first_column + c * column_step) * y_stride + first_row + row;
+#if ADDS
+    y[at] += sum[c];
+#else
+    y[at] = sum[c];
+#endif
+  }
+}
