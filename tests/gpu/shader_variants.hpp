@@ -26,7 +26,7 @@ inline std::vector<ShaderVariant> shader_variants() {
     variants.push_back({"csr_texels.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"ADDS", present}}});
     variants.push_back(
         {"texture_product.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}}});
-    variants.push_back({"texture_texels.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}}});
+    variants.push_back({"texture_texels.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"ROWS", 4}}});
   }
   for (const int lanes : {1, 32}) variants.push_back({"patch_emission.comp", {{"LANES", lanes}}});
   for (const int layers : {1, 6})
