@@ -21,7 +21,7 @@ constexpr int invocations_of_double_group = 64;
 constexpr int lanes_in_double = 16;
 
 template <typename Scalar>
-ShaderFamily shaders_for(RowStrategy strategy) {
+ShaderFamily shaders_for(RowStrategy strategy, Texel texel) {
   if constexpr (std::is_same_v<Scalar, double>)
     return {"dense_double.comp",
             {{"INVOCATIONS", invocations_of_double_group},
@@ -31,7 +31,11 @@ ShaderFamily shaders_for(RowStrategy strategy) {
             {{"HALF", std::is_same_v<Scalar, Half> ? 1 : 0},
              {"ROWS", rows_of_group},
              {"INVOCATIONS", invocations_of_group}}};
-  return {"dense_texels.comp", {}};
+  return {"dense_texels.comp", {{"EIGHT", texel == Texel::four_words ? 1 : 0}}};
+}
+
+bool below_normal_range(Half number) {
+  return (number.bits & 0x7c00) == 0 && (number.bits & 0x03ff) != 0;
 }
 
 template <typename Scalar>
@@ -66,8 +70,8 @@ DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const Sym
       stride_(FieldBuffers::padded(kernel.size())),
       scale_(kernel.scale()),
       strategy_(strategy),
-      shaders_(shaders_for<Scalar>(strategy)),
-      strips_(upload([&](Index I, Scalar* strip) { copy_tile_row(kernel, I, stride_, strip); })) {}
+      strips_(upload([&](Index I, Scalar* strip) { copy_tile_row(kernel, I, stride_, strip); })),
+      shaders_(shaders_for<Scalar>(strategy, texel_)) {}
 
 template <typename Scalar>
 DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const RowMajorMatrix<Scalar>& matrix,
@@ -76,16 +80,18 @@ DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const Row
       stride_(matrix.stride()),
       scale_(matrix.scale()),
       strategy_(strategy),
-      shaders_(shaders_for<Scalar>(strategy)),
       strips_(upload([&](Index I, Scalar* strip) {
         const Index present = std::min(strip_rows, rows() - I * strip_rows);
         std::copy_n(matrix.row(I * strip_rows), present * stride_, strip);
         std::fill(strip + present * stride_, strip + strip_rows * stride_, Scalar{});
-      })) {}
+      })),
+      shaders_(shaders_for<Scalar>(strategy, texel_)) {}
 
 template <typename Scalar>
 template <typename ReadStrip>
-StoredRows DenseOnDevice<Scalar>::upload(const ReadStrip& read_strip) const {
+StoredRows DenseOnDevice<Scalar>::upload(const ReadStrip& read_strip) {
+  constexpr bool halves = std::is_same_v<Scalar, Half>;
+  texel_ = halves ? Texel::four_words : Texel::four_floats;
   const CurrentContext current(*device().context());
   std::vector<Scalar> strip(static_cast<std::size_t>(strip_rows * stride_));
   return {device().context(),
@@ -94,6 +100,8 @@ StoredRows DenseOnDevice<Scalar>::upload(const ReadStrip& read_strip) const {
            .subject = "64 rows of the matrix take"},
           [&](Index I) {
             read_strip(I, strip.data());
+            if constexpr (halves)
+              if (std::any_of(strip.begin(), strip.end(), below_normal_range)) texel_ = Texel::four_halves;
             return strip.data();
           }};
 }
@@ -105,14 +113,13 @@ ByteCount DenseOnDevice<Scalar>::bytes() const {
 
 template <typename Scalar>
 void DenseOnDevice<Scalar>::dispatch(Index columns) const {
-  constexpr Texel four_entries = std::is_same_v<Scalar, Half> ? Texel::four_halves : Texel::four_floats;
   const bool by_texels = strategy_ == RowStrategy::invocation && !in_double();
   const Index rows_together = rows_of_work_group<Scalar>(strategy_);
   TexelUnits& texels = device().texels();
   if (by_texels) texels.show_bound(x_unit, Texel::four_floats, FieldBuffers::x_binding);
   for (const StoredRows::Part& part : strips_.parts()) {
     if (by_texels)
-      texels.show(entries_binding, four_entries, part.buffer);
+      texels.show(entries_binding, texel_, part.buffer);
     else
       part.buffer.bind(entries_binding);
     shaders_.for_columns(device(), columns, [&](const GlProgram& program, Index first_column) {

@@ -35,13 +35,14 @@ class DenseOnDevice final : public DeviceMatrix {
 
  private:
   template <typename ReadStrip>
-  StoredRows upload(const ReadStrip& read_strip) const;
+  StoredRows upload(const ReadStrip& read_strip);
 
   Index stride_;
   double scale_;
   RowStrategy strategy_;
-  ShaderFamily shaders_;
+  Texel texel_;  ///< of entries: eight numbers of binary16 in four words if none is below the normal range
   StoredRows strips_;  ///< of 64 rows each, padding included
+  ShaderFamily shaders_;
 };
 
 extern template class DenseOnDevice<double>;

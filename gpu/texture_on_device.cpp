@@ -16,8 +16,12 @@ constexpr unsigned tables_binding = 3;
 constexpr unsigned field_unit = 1;
 constexpr unsigned palettes_unit = 2;
 constexpr int invocations_of_texture_group = 64;
-constexpr Index block_rows_of_vector = 4;
 constexpr std::size_t table_numbers = std::size_t{3} * texture_table;
+
+/// Rows of blocks that share what is read of X by texels: more of one channel, which has fewer sums.
+int block_rows_of_vector(Index channels) {
+  return channels == 1 ? 8 : 4;
+}
 
 ShaderVariant shader_for(const ColourTexture& texture, RowStrategy strategy) {
   ShaderVariant variant{
@@ -26,6 +30,8 @@ ShaderVariant shader_for(const ColourTexture& texture, RowStrategy strategy) {
   if (strategy == RowStrategy::group) {
     variant.file = "texture_product.comp";
     variant.defines.emplace_back("INVOCATIONS", invocations_of_texture_group);
+  } else {
+    variant.defines.emplace_back("ROWS", block_rows_of_vector(texture.channels()));
   }
   return variant;
 }
@@ -130,7 +136,7 @@ void TextureOnDevice::dispatch_part(const StoredRows::Part& part, Index first_co
   else
     part.buffer.bind(blocks_binding);
   tables_.bind(tables_binding);
-  const Index rows_together = by_texels ? block_rows_of_vector : 1;
+  const Index rows_together = by_texels ? block_rows_of_vector(channels()) : 1;
   const GlProgram& program = *program_;
   program.use();
   program.set("block_columns", block_columns_);

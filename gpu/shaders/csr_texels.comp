@@ -25,8 +25,8 @@ void main() {
   float sum[COLUMNS];
   for (uint c = 0; c < COLUMNS; ++c) sum[c] = 0;
   for (uint four = begin / 4; 4 * four < end; ++four) {
-    uvec4 place = 4 * four + uvec4(0, 1, 2, 3);
-    bvec4 of_row = equal(uvec4(greaterThanEqual(place, uvec4(begin))) & uvec4(lessThan(place, uvec4(end))), uvec4(1));
+    uvec4 place = 4 * four - begin + uvec4(0, 1, 2, 3);  // in the row; before it, beyond all numbers
+    bvec4 of_row = lessThan(place, uvec4(end - begin));
     vec4 value = texelFetch(values, int(four));
     ivec4 column = ivec4(texelFetch(columns, int(four)));
     for (uint c = 0; c < COLUMNS; ++c) {

@@ -1,5 +1,5 @@
 // What texture_product.comp computes, on drivers that compute on the CPU (dense_texels.comp says why). Eight lanes walk
-// along four rows of blocks side by side, two blocks at a time.
+// along ROWS rows of blocks, four or eight, side by side, two blocks at a time.
 #include "groups.glsl"
 
 layout(local_size_x = 8) in;
@@ -15,8 +15,6 @@ uniform uint first_block_row;  // of the matrix in this part
 uniform uint part_block_rows;
 uniform uint y_stride;
 uniform uint first_column;     // of a light, of CHANNELS columns
-
-const uint ROWS = 4;
 
 shared float lane_sums[ROWS * CHANNELS * 4][8];
 
@@ -57,9 +55,9 @@ vec4 palette(uint colours, uint colour) {
   return texelFetch(palettes, int(first_palette + pair.y * (colour == 1 ? 64 : 32) + pair.x));
 }
 
-void add_block(uint row, uint side, uint colours, uint indices) {
+void add_block(uint row, uint side, vec4 numbers[CHANNELS], uint indices) {
   for (uint c = 0; c < CHANNELS; ++c) {
-    vec4 number = palette(colours, colour_of(c));
+    vec4 number = numbers[c];
     for (uint r = 0; r < 4; ++r) {
       uvec4 index = uvec4(indices) >> (uvec4(0, 2, 4, 6) + 8 * r);
       bvec4 low = notEqual(index & 1u, uvec4(0));
@@ -69,6 +67,18 @@ void add_block(uint row, uint side, uint colours, uint indices) {
               mix(mix(number.xxxx, number.yyyy, low), mix(number.zzzz, number.wwww, low), high));
     }
   }
+}
+
+// All palettes first: a fetch is a call, around which every number in use goes to memory.
+void add_two(uint row, uvec4 two) {
+  vec4 left[CHANNELS];
+  vec4 right[CHANNELS];
+  for (uint c = 0; c < CHANNELS; ++c) {
+    left[c] = palette(two.x, colour_of(c));
+    right[c] = palette(two.z, colour_of(c));
+  }
+  add_block(row, 0, left, two.y);
+  add_block(row, 1, right, two.w);
 }
 #else
 
@@ -89,13 +99,16 @@ void add_block(uint row, uint side, uint colours, uint indices) {
     }
   }
 }
+
+void add_two(uint row, uvec4 two) {
+  add_block(row, 0, two.x, two.y);
+  add_block(row, 1, two.z, two.w);
+}
 #endif
 
 void add_blocks(uint row, uint pair) {
   uint block_row = min(group_index() * ROWS + row, part_block_rows - 1);
-  uvec4 two = texelFetch(blocks, int(block_row * (block_columns / 2) + pair));
-  add_block(row, 0, two.x, two.y);
-  add_block(row, 1, two.z, two.w);
+  add_two(row, texelFetch(blocks, int(block_row * (block_columns / 2) + pair)));
 }
 
 void main() {
@@ -113,6 +126,12 @@ void main() {
     add_blocks(1, pair);
     add_blocks(2, pair);
     add_blocks(3, pair);
+#if ROWS == 8
+    add_blocks(4, pair);
+    add_blocks(5, pair);
+    add_blocks(6, pair);
+    add_blocks(7, pair);
+#endif
   }
   for (uint s = 0; s < ROWS * CHANNELS; ++s) {
 #if !LOGARITHMIC

@@ -110,7 +110,7 @@ TEST_F(Context, GivesTheLogOfAShaderThatDoesNotCompile) {
 
 TEST_F(Context, RefusesUniformsThatAShaderHasNot) {
   const CurrentContext current(*device()->context());
-  const GlProgram& program = device()->program({"dense_texels.comp", {{"COLUMNS", 1}}});
+  const GlProgram& program = device()->program({"dense_texels.comp", {{"COLUMNS", 1}, {"EIGHT", 0}}});
   EXPECT_NE(complaint_of([&] { program.set("no_such_uniform", 1); }).find("no_such_uniform"),
             std::string::npos);
 }

@@ -1,3 +1,4 @@
+#include "foundation/random.hpp"
 #include "gpu/dense_on_device.hpp"
 #include "gpu/gl_operators.hpp"
 #include "gpu/upload.hpp"
@@ -87,6 +88,31 @@ TEST_F(LimitedDevice, SplitsFactorsSparseMatricesAndTexturesToo) {
        {"svd:k=8", "svd:k=8,norm=area,method=lanczos", "sparse-v:k=8", "csr:f32", "dxt:reorder=none"})
     split_in(2 * 2048, spec);
   split_in(2 * 5 * 2048, "dxt:codec=bc4,reorder=none");
+}
+
+/// Rows down to 2^-`graded` of the first, with signs, against sums in double of the same halves.
+class HalvesOnDevice : public DeviceTest {
+ protected:
+  static void expect_plain_products(int graded, RowStrategy strategy) {
+    constexpr Index n = 90;
+    RandomStream random(7);
+    const Eigen::MatrixXd numbers = Eigen::MatrixXd::NullaryExpr(n, n, [&](Index i, Index) {
+      return std::ldexp(random.uniform() - 0.4, -static_cast<int>(i * graded / n));
+    });
+    const RowMajorMatrix<Half> halves(numbers);
+    const Eigen::MatrixXd M =
+        Eigen::MatrixXd::NullaryExpr(n, n, [&](Index i, Index j) { return halves(i, j); });
+    const Field X = Field::NullaryExpr(n, 3, [&] { return random.uniform() - 0.5; });
+    Field Y(n, 3);
+    DenseOnDevice<Half>(device(), halves, strategy).multiply(X, Y);
+    const Field allowed = (2 * (n + 8) * 0x1p-24) * (M.cwiseAbs() * X.cwiseAbs());
+    EXPECT_TRUE(((Y - M * X).array().abs() <= allowed.array()).all()) << graded;
+  }
+};
+
+TEST_F(HalvesOnDevice, MultiplyExactlyAboveAndBelowTheNormalRange) {
+  for (const RowStrategy strategy : {RowStrategy::group, RowStrategy::invocation})
+    for (const int graded : {0, 12, 38}) expect_plain_products(graded, strategy);
 }
 
 TEST_F(LimitedDevice, RefusesWhatDoesNotFitIntoItsStorageBlocks) {

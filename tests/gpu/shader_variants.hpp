@@ -9,10 +9,11 @@ namespace radiosity {
 /// Each shader with the largest constants that it is compiled with, in every precision.
 inline std::vector<ShaderVariant> shader_variants() {
   std::vector<ShaderVariant> variants;
-  for (const int half : {0, 1})
+  for (const int half : {0, 1}) {
     variants.push_back(
         {"dense_group.comp", {{"COLUMNS", 4}, {"HALF", half}, {"ROWS", 4}, {"INVOCATIONS", 128}}});
-  variants.push_back({"dense_texels.comp", {{"COLUMNS", 4}}});
+    variants.push_back({"dense_texels.comp", {{"COLUMNS", 4}, {"EIGHT", half}}});
+  }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
       variants.push_back({"csr_rows.comp",
@@ -30,7 +31,7 @@ inline std::vector<ShaderVariant> shader_variants() {
     variants.push_back({"csr_texels.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"ADDS", present}}});
     variants.push_back(
         {"texture_product.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}}});
-    variants.push_back({"texture_texels.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}}});
+    variants.push_back({"texture_texels.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"ROWS", 4}}});
   }
   for (const int code : {0, 1, 2, 3, 4, 5})
     for (const int present : {0, 1})
