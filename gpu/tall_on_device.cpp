@@ -3,13 +3,15 @@
 namespace radiosity {
 namespace {
 
+/// Of storage blocks and of texture units.
 constexpr unsigned panels_binding = 0;
+constexpr unsigned vectors_unit = 1;
 constexpr Index panel_rows = TallMatrix<float>::panel_rows;
 /// Panels whose sums are put together by one work group: 2048 rows keep the sums of chunks few.
 constexpr Index panels_of_chunk = 32;
 /// Where each invocation has columns of its own.
-constexpr int columns_of_invocation = 2;
-constexpr Index columns_of_wide_group = Index{8} * columns_of_invocation;
+constexpr int columns_of_invocation = 4;
+constexpr Index columns_of_vector = Index{8} * columns_of_invocation;
 
 Index chunks_of(Index panels) {
   return (panels + panels_of_chunk - 1) / panels_of_chunk;
@@ -35,12 +37,13 @@ TallOnDevice::TallOnDevice(std::shared_ptr<GlDevice> device, const TallMatrix<fl
       columns_(matrix.columns()),
       scale_(matrix.scale()),
       panels_(panels_of(*device_, matrix)),
-      columns_of_group_(strategy == RowStrategy::group ? 1 : columns_of_wide_group),
-      product_(strategy == RowStrategy::group ? "tall_product.comp" : "tall_product_wide.comp",
+      by_texels_(strategy == RowStrategy::invocation),
+      columns_of_group_(strategy == RowStrategy::group ? 1 : columns_of_vector),
+      product_(strategy == RowStrategy::group ? "tall_product.comp" : "tall_product_texels.comp",
                {{"ORDERED", ordered ? 1 : 0}}),
       transposed_(strategy == RowStrategy::group
                       ? ShaderFamily("tall_transposed.comp", {})
-                      : ShaderFamily("tall_transposed_wide.comp", {{"SHARE", columns_of_invocation}})) {}
+                      : ShaderFamily("tall_transposed_texels.comp", {{"SHARE", columns_of_invocation}})) {}
 
 Index TallOnDevice::chunks() const {
   Index chunks = 0;
@@ -48,9 +51,21 @@ Index TallOnDevice::chunks() const {
   return chunks;
 }
 
-void TallOnDevice::multiply(Index columns) const {
-  for (const StoredRows::Part& part : panels_.parts()) {
+void TallOnDevice::bind_vectors() const {
+  if (by_texels_) device_->texels().show_bound(vectors_unit, Texel::four_floats, FieldBuffers::x_binding);
+}
+
+void TallOnDevice::bind_panels(const StoredRows::Part& part) const {
+  if (by_texels_)
+    device_->texels().show(panels_binding, Texel::four_floats, part.buffer);
+  else
     part.buffer.bind(panels_binding);
+}
+
+void TallOnDevice::multiply(Index columns) const {
+  bind_vectors();
+  for (const StoredRows::Part& part : panels_.parts()) {
+    bind_panels(part);
     product_.for_columns(*device_, columns, [&](const GlProgram& program, Index first_column) {
       program.set("rank", columns_);
       program.set("rows", rows_);
@@ -66,9 +81,10 @@ void TallOnDevice::multiply(Index columns) const {
 
 void TallOnDevice::multiply_transposed(Index columns) const {
   if (columns_ == 0) return;
+  bind_vectors();
   Index first_chunk = 0;
   for (const StoredRows::Part& part : panels_.parts()) {
-    part.buffer.bind(panels_binding);
+    bind_panels(part);
     transposed_.for_columns(*device_, columns, [&](const GlProgram& program, Index first_column) {
       program.set("rank", columns_);
       program.set("first_panel", part.first_row);

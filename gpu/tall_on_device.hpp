@@ -37,11 +37,15 @@ class TallOnDevice {
   Index chunks() const;
 
  private:
+  void bind_vectors() const;
+  void bind_panels(const StoredRows::Part& part) const;
+
   std::shared_ptr<GlDevice> device_;
   Index rows_;
   Index columns_;
   double scale_;
   StoredRows panels_;
+  bool by_texels_;
   Index columns_of_group_;  ///< of M' X
   ShaderFamily product_;
   ShaderFamily transposed_;

@@ -11,8 +11,9 @@ namespace radiosity {
 enum class Texel { one_float, four_floats, four_halves, four_shorts, four_words };
 
 /// Buffers that shaders read as buffer textures. Software renderers get them so: Mesa's llvmpipe loads from
-/// storage blocks number by number and lane by lane, and fetches texels for all lanes at once. The context is
-/// current in every call but the destructor's.
+/// storage blocks number by number and lane by lane, and fetches texels for all lanes at once. The memory of
+/// a buffer that is deleted stays until its unit shows another. The context is current in every call but the
+/// destructor's.
 class TexelUnits {
  public:
   explicit TexelUnits(std::shared_ptr<const GlContext> context) : context_(std::move(context)) {}

@@ -44,7 +44,10 @@ TEST(Interruption, SoDoesTermination) {
 
 const std::vector<std::string> short_work = {"form-factors", "cornell-box", "--patches", "3000"};
 
+constexpr const char* no_terminal = "the system gives no terminal: /dev/pts is not mounted";
+
 TEST(Progress, IsDrawnOnATerminal) {
+  if (!RunningProgram::terminals_exist()) GTEST_SKIP() << no_terminal;
   const TemporaryFolder folder;
   RunningProgram program(short_work, folder.path(), RunningProgram::StandardError::terminal);
   const ProcessResult result = program.wait();
@@ -61,6 +64,7 @@ TEST(Progress, IsNotDrawnInAPipe) {
 }
 
 TEST(Progress, IsNotDrawnWhenQuiet) {
+  if (!RunningProgram::terminals_exist()) GTEST_SKIP() << no_terminal;
   const TemporaryFolder folder;
   std::vector<std::string> work = short_work;
   work.push_back("--quiet");

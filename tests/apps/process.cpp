@@ -93,6 +93,14 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const 
   if (process_ < 0) throw std::runtime_error("cannot start a process");
 }
 
+bool RunningProgram::terminals_exist() {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  if (terminal < 0) return false;
+  const bool usable = grantpt(terminal) == 0 && unlockpt(terminal) == 0 && ptsname(terminal) != nullptr;
+  close(terminal);
+  return usable;
+}
+
 RunningProgram::~RunningProgram() {
   if (process_ > 0) {
     kill(process_, SIGKILL);

@@ -42,6 +42,8 @@ class RunningProgram {
   RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  StandardError kind = StandardError::file);
   ~RunningProgram();
+  /// False where the system has none to give, as in a bare container.
+  static bool terminals_exist();
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 

@@ -100,7 +100,7 @@ TEST_F(DeviceBenchmark, MeasuresWhatTheTablesNeedAndRightProducts) {
   DeviceBenchmarkOptions options;
   options.sizes = {{216, 54}};
   options.large_sizes = {{3538944, 216}};
-  options.patches = {60};
+  options.patches = {240};  // fewer take less memory than tables of palettes do
   options.patches_over_bounces = 60;
   options.bounce_counts = {1};
   options.costs = {.patches = 70, .factors = {216, 54}, .seconds = 0.001};

@@ -54,8 +54,8 @@ inline std::vector<ShaderVariant> shader_variants() {
   for (const int lanes : {1, 16})
     variants.push_back({"dense_double.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
   variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
-  variants.push_back({"tall_transposed_wide.comp", {{"COLUMNS", 4}, {"SHARE", 2}}});
-  variants.push_back({"tall_product_wide.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
+  variants.push_back({"tall_transposed_texels.comp", {{"COLUMNS", 4}, {"SHARE", 4}}});
+  variants.push_back({"tall_product_texels.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
   for (const int present : {0, 1}) {
     variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
     variants.push_back({"transport_step.comp", {{"FIRST", present}}});

@@ -1,11 +1,11 @@
-// What tall_transposed.comp computes, with SHARE columns of M for each invocation: nothing meets in shared memory.
+// What tall_transposed.comp computes, on drivers that compute on the CPU (dense_texels.comp says why), with SHARE columns
+// of M for each invocation: nothing meets in shared memory.
 #include "groups.glsl"
-#include "wide_loads.glsl"
 
 layout(local_size_x = 8) in;
 
-layout(std430, binding = 0) readonly buffer Panels { dvec4 panels[]; };
-layout(std430, binding = 1) readonly buffer X { dvec4 x[]; };
+layout(binding = 0) uniform samplerBuffer panels;  // fours
+layout(binding = 1) uniform samplerBuffer x;       // fours
 layout(std430, binding = 3) writeonly buffer Sums { float chunk_sums[]; };
 
 uniform uint rank;
@@ -28,20 +28,14 @@ void main() {
   float sum[SHARE * COLUMNS];
   for (uint s = 0; s < SHARE * COLUMNS; ++s) sum[s] = 0;
   for (uint panel = begin; panel < end; ++panel)
-    for (uint e = 0; e < 8; ++e) {
-      vec4 part[2 * COLUMNS];
-      for (uint c = 0; c < COLUMNS; ++c) {
-        dvec4 bits = x[((first_column + c) * x_stride + (first_panel + panel) * 64) / 8 + e];
-        part[2 * c] = four_floats(bits.xy);
-        part[2 * c + 1] = four_floats(bits.zw);
-      }
+    for (uint e = 0; e < 16; ++e) {
+      vec4 part[COLUMNS];
+      for (uint c = 0; c < COLUMNS; ++c)
+        part[c] = texelFetch(x, int(((first_column + c) * x_stride + (first_panel + panel) * 64) / 4 + e));
       for (uint s = 0; s < SHARE; ++s) {
         uint p = min(first + 8 * s, rank - 1);
-        dvec4 bits = panels[(panel * rank + p) * 8 + e];
-        vec4 low = four_floats(bits.xy);
-        vec4 high = four_floats(bits.zw);
-        for (uint c = 0; c < COLUMNS; ++c)
-          sum[s * COLUMNS + c] += dot(low, part[2 * c]) + dot(high, part[2 * c + 1]);
+        vec4 four = texelFetch(panels, int((panel * rank + p) * 16 + e));
+        for (uint c = 0; c < COLUMNS; ++c) sum[s * COLUMNS + c] += dot(four, part[c]);
       }
     }
   for (uint s = 0; s < SHARE; ++s)
