@@ -1,6 +1,5 @@
 #include "experiments/device/device_costs.hpp"
 
-#include "experiments/device/repeated_timing.hpp"
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 #include "experiments/low_rank_radiosity/solved_factors.hpp"
 #include "experiments/synthetic_form_factors.hpp"
@@ -18,15 +17,15 @@ constexpr double dense_limit = 10;
 constexpr double factors_limit = 15;
 constexpr double blocks_limit = 3;
 
-/// Processor seconds of all threads in the cheapest run.
-double cheapest(double seconds, const std::function<void()>& work) {
-  return time_repeatedly(seconds,
-                         [&] {
-                           const Stopwatch watch;
-                           work();
-                           return watch.cpu_seconds();
-                         })
-      .min;
+/// Processor seconds of all threads a run, from the total of several: the clock of a process leaves out what
+/// its other threads have used since they were last looked at, so that the cheapest run would be too cheap.
+double mean_cost(double seconds, const std::function<void()>& work) {
+  constexpr int fewest_runs = 3;
+  work();
+  const Stopwatch watch;
+  int runs = 0;
+  for (; runs < fewest_runs || watch.seconds() < seconds; ++runs) work();
+  return watch.cpu_seconds() / runs;
 }
 
 ProductCost cost_of_operator(const std::shared_ptr<GlDevice>& device, const LinearOperator& on_cpu,
@@ -34,8 +33,8 @@ ProductCost cost_of_operator(const std::shared_ptr<GlDevice>& device, const Line
   const auto copy = upload(device, on_cpu);
   const Field X = Field::Ones(on_cpu.size(), columns);
   Field Y(on_cpu.size(), columns);
-  return {on_cpu.describe(), columns, cheapest(seconds, [&] { on_cpu.apply(X, Y); }),
-          cheapest(seconds, [&] { copy->apply(X, Y); }), limit};
+  return {on_cpu.describe(), columns, mean_cost(seconds, [&] { on_cpu.apply(X, Y); }),
+          mean_cost(seconds, [&] { copy->apply(X, Y); }), limit};
 }
 
 ProductCost cost_of_factors(const std::shared_ptr<GlDevice>& device, const ProductCostOptions& options,
@@ -46,12 +45,12 @@ ProductCost cost_of_factors(const std::shared_ptr<GlDevice>& device, const Produ
   const Field E = Field::Ones(options.factors.rows, columns);
   Field X(options.factors.rank, columns);
   Field Y(options.factors.rows, columns);
-  const double on_cpu = cheapest(options.seconds, [&] {
+  const double on_cpu = mean_cost(options.seconds, [&] {
     multiply_transposed(V, E, X);
     multiply(factors.Y, X, Y);
   });
   return {fmt::format("low-rank:n={},k={}", options.factors.rows, options.factors.rank), columns, on_cpu,
-          cheapest(options.seconds, [&] { copy.multiply(E, Y); }), factors_limit};
+          mean_cost(options.seconds, [&] { copy.multiply(E, Y); }), factors_limit};
 }
 
 }  // namespace
