@@ -48,6 +48,11 @@ std::unique_ptr<LinearOperator> make_svd_operator(Spec& spec, const FormFactors&
   choice.require_kernel(form_factors);
   const std::string described = fmt::format("svd:{},method={}", choice.text(), method);
   if (method == "lanczos") return make_lanczos_operator(choice, form_factors, described);
+  const auto n = static_cast<double>(form_factors.patch_count());
+  // The matrix, its vectors (of the kernel the same on both sides), and what LAPACK works in.
+  const double matrices = choice.in_area_norm() ? 3 : 5;
+  require_available_memory(fmt::format("{} of {} patches", described, form_factors.patch_count()),
+                           matrices * sizeof(double) * n * n, "take rsvd or method=lanczos");
   if (choice.in_area_norm()) {
     const SymmetricEigenpairs all = symmetric_eigenpairs(materialize(*form_factors.kernel));
     const SymmetricEigenpairs more = largest_in_magnitude(all, choice.rank + 1);
@@ -57,10 +62,6 @@ std::unique_ptr<LinearOperator> make_svd_operator(Spec& spec, const FormFactors&
         choice.storage, form_factors, kept.vectors, kept.values,
         std::optional<double>(left_out ? std::fabs(more.values.tail(1)[0]) : 0), described);
   }
-  const auto n = static_cast<double>(form_factors.patch_count());
-  constexpr double matrices = 5;  // F, U, V and what LAPACK works in
-  require_available_memory(fmt::format("{} of {} patches", described, form_factors.patch_count()),
-                           matrices * sizeof(double) * n * n, "take rsvd or method=lanczos");
   const SingularValues svd = singular_value_decomposition(form_factors.matrix());
   const Index rank = std::min(choice.rank, svd.values.size());
   return make_low_rank_operator(choice, form_factors, scaled_left(svd, rank), described);

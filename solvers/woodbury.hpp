@@ -39,7 +39,7 @@ class Woodbury final : public SteppedSolver {
   const LowRankFactors& factors_;
   std::optional<CapacitanceMatrices> capacitances_;
   std::uint64_t reflectance_ = 0;  ///< fingerprint of those that they were made for
-  Field residuals_;                ///< E - (I - T) B; empty before the first step
+  Field residuals_;                ///< E - (I - T) B; empty before the first step and after the last
   int steps_ = 0;
 };
 
