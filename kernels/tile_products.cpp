@@ -32,6 +32,16 @@ TileProducts<Scalar> tile_products(InstructionSet instructions) {
   return std::get<TileProducts<Scalar>>(all_products(instructions));
 }
 
+TileProducts<Bc4Block> bc4_products(InstructionSet instructions, const TileCurve& curve) {
+  TileProducts<Bc4Block> linear;
+  TileProducts<Bc4Block> logarithmic;
+#if defined(RADIOSITY_X86_KERNELS)
+  if (instructions == InstructionSet::avx512) get_avx512_products(linear, logarithmic);
+#endif
+  static_cast<void>(instructions);
+  return curve.logarithmic ? logarithmic : linear;
+}
+
 template TileProducts<double> tile_products(InstructionSet);
 template TileProducts<float> tile_products(InstructionSet);
 template TileProducts<Half> tile_products(InstructionSet);

@@ -2,6 +2,7 @@
 
 #include "kernels/half.hpp"
 #include "kernels/instruction_set.hpp"
+#include "kernels/tile_format.hpp"
 
 #include <cstddef>
 
@@ -25,7 +26,8 @@ struct Multiplier<double> {
 /// which X has one scale.
 constexpr int tiles_together = 4;
 
-/// At most 64 rows of 64 entries of a matrix and the pieces of X and Y that they touch. X and Y are in blocks
+/// At most 64 rows of 64 entries of a matrix and the pieces of X and Y that they touch. Where Scalar is
+/// Bc4Block, the entries are those of 16 x 16 blocks, which follow each other by rows. X and Y are in blocks
 /// of 64 rows, one column after the other: entry (i, c) of a block is at 64 c + i. All are aligned to 64
 /// bytes.
 template <typename Scalar>
@@ -33,8 +35,9 @@ struct TileTask {
   using Number = typename Multiplier<Scalar>::Type;
 
   const Scalar* entries = nullptr;
-  std::ptrdiff_t stride = 64;  ///< numbers from one row to the next
-  int rows = 64;
+  std::ptrdiff_t stride = 64;        ///< numbers from one row to the next; not for blocks
+  int rows = 64;                     ///< 64 for blocks
+  const TileCurve* curve = nullptr;  ///< for blocks: what their codes stand for
   const char* prefetch =
       nullptr;  ///< what will be read soon, as much as this task reads; null: do not fetch ahead
   bool prefetch_every_line = true;  ///< else one line a row, where entries follow each other in memory
@@ -73,8 +76,14 @@ constexpr int row_lanes_size = TileProducts<Scalar>::most_columns * 64 *
 template <typename Scalar>
 TileProducts<Scalar> tile_products(InstructionSet instructions);
 
+/// Products that decode BC4 blocks while they multiply: the same bits as tile_products<float> of what a
+/// decoder (kernels/tile_decoders.hpp) makes of them. Null functions where that is not faster (all but
+/// AVX-512).
+TileProducts<Bc4Block> bc4_products(InstructionSet instructions, const TileCurve& curve);
+
 void get_baseline_products(TileProducts<double>& f64, TileProducts<float>& f32, TileProducts<Half>& f16);
 void get_avx2_products(TileProducts<double>& f64, TileProducts<float>& f32, TileProducts<Half>& f16);
 void get_avx512_products(TileProducts<double>& f64, TileProducts<float>& f32, TileProducts<Half>& f16);
+void get_avx512_products(TileProducts<Bc4Block>& linear, TileProducts<Bc4Block>& logarithmic);
 
 }  // namespace radiosity

@@ -8,6 +8,12 @@
 //   strip_vectors<Number, columns>: how many vectors of a row are worked on together (a divisor of 64 /
 //   width): whole rows where the sums down them fit into registers.
 //
+// What entries are read from is a class of its own: StoredEntries here, others beside an instruction set that
+// can decode faster than it can store and load again. It has the task that it is made from, Task, and
+//
+//   visit_rows<vectors>(first, visit): visit(r, entry) for every row r from the first on, where entry(v) is
+//     vector v of its numbers from column `first` on.
+//
 // Every entry is loaded (and converted) once and used for `columns` columns in both directions. The tile is
 // cut into strips of columns. Sums down a strip stay in registers; sums along the rows stay apart by lane in
 // memory (in the first cache) over several tiles, because adding up the lanes of a vector costs as much as a
@@ -22,78 +28,34 @@ namespace {
 
 constexpr int block = 64;
 
-template <typename Scalar, int columns, bool to_rows, bool to_columns>
-class TileLoop {
+/// Numbers in memory, row by row.
+template <typename Scalar>
+class StoredEntries {
  public:
-  explicit TileLoop(const TileTask<Scalar>& task)
+  using Task = TileTask<Scalar>;
+  using Number = typename Multiplier<Scalar>::Type;
+
+  explicit StoredEntries(const Task& task)
       : entries_(task.entries),
         stride_(task.stride),
         rows_(task.rows),
-        first_(task.first),
         prefetch_(task.prefetch),
-        every_line_(task.prefetch_every_line),
-        x_columns_(task.x_columns),
-        x_rows_(task.x_rows),
-        row_lanes_(task.row_lanes) {}
+        every_line_(task.prefetch_every_line) {}
 
-  [[gnu::always_inline]] inline void run(const TileTask<Scalar>& task) const {
-    for (int first = 0; first < block; first += strip) multiply_strip(task, first);
-    if constexpr (to_rows)
-      if (task.last) add_row_sums(task);
+  template <int vectors, typename Visit>
+  [[gnu::always_inline]] inline void visit_rows(int first, Visit visit) const {
+    const int rows = rows_;
+    for (int r = 0; r < rows; ++r) {
+      const Scalar* entries = entries_ + r * stride_ + first;
+      fetch_ahead<vectors * L::width>(r * stride_ + first);
+      visit(r, [entries](int v) { return L::load(entries + v * L::width); });
+    }
   }
 
  private:
-  using Number = typename Multiplier<Scalar>::Type;
   using L = Lanes<Number>;
-  using Vector = typename L::Vector;
-  static constexpr int width = L::width;
-  static constexpr int vectors = strip_vectors<Number, columns>;
-  static constexpr int strip = width * vectors;
 
-  /// All rows, `strip` columns wide from column `first`.
-  [[gnu::always_inline]] inline void multiply_strip(const TileTask<Scalar>& task, int first) const {
-    const int rows = rows_;
-    const bool fresh = first_ && first == 0;
-    Vector down[columns][vectors];
-#pragma GCC unroll 8
-    for (int c = 0; c < columns; ++c)
-#pragma GCC unroll 8
-      for (int v = 0; v < vectors; ++v) down[c][v] = L::zero();
-    for (int r = 0; r < rows; ++r) multiply_row(r, first, fresh, down);
-    if constexpr (to_columns)
-#pragma GCC unroll 8
-      for (int c = 0; c < columns; ++c)
-#pragma GCC unroll 8
-        for (int v = 0; v < vectors; ++v)
-          L::add_scaled(task.y_columns + c * block + first + v * width, down[c][v], task.x_rows_scale[c]);
-  }
-
-  [[gnu::always_inline]] inline void multiply_row(int r, int first, bool fresh,
-                                                  Vector (&down)[columns][vectors]) const {
-    const Scalar* entries = entries_ + r * stride_ + first;
-    fetch_ahead(r * stride_ + first);
-    Vector across[columns];
-    Vector x_row[columns];
-#pragma GCC unroll 8
-    for (int c = 0; c < columns; ++c) {
-      if constexpr (to_rows) across[c] = fresh ? L::zero() : L::load(lanes(c, r));
-      if constexpr (to_columns) x_row[c] = L::broadcast(x_rows_[c * block + r]);
-    }
-#pragma GCC unroll 8
-    for (int v = 0; v < vectors; ++v) {
-      const Vector entry = L::load(entries + v * width);
-#pragma GCC unroll 8
-      for (int c = 0; c < columns; ++c) {
-        if constexpr (to_rows)
-          across[c] = L::multiply_add(entry, L::load(x_columns_ + c * block + first + v * width), across[c]);
-        if constexpr (to_columns) down[c][v] = L::multiply_add(entry, x_row[c], down[c][v]);
-      }
-    }
-    if constexpr (to_rows)
-#pragma GCC unroll 8
-      for (int c = 0; c < columns; ++c) L::store(lanes(c, r), across[c]);
-  }
-
+  template <int strip>
   [[gnu::always_inline]] inline void fetch_ahead(std::ptrdiff_t offset) const {
     if (prefetch_ == nullptr) return;
     constexpr int into_second_cache = 2;
@@ -108,11 +70,90 @@ class TileLoop {
     }
   }
 
+  // Copies, which stay in registers: stores of vectors might alias the task.
+  const Scalar* entries_;
+  std::ptrdiff_t stride_;
+  int rows_;
+  const char* prefetch_;
+  bool every_line_;
+};
+
+template <typename Entries, int columns, bool to_rows, bool to_columns>
+class TileLoop {
+ public:
+  using Task = typename Entries::Task;
+
+  explicit TileLoop(const Task& task)
+      : entries_(task),
+        rows_(task.rows),
+        first_(task.first),
+        x_columns_(task.x_columns),
+        x_rows_(task.x_rows),
+        row_lanes_(task.row_lanes) {}
+
+  [[gnu::always_inline]] inline void run(const Task& task) const {
+    for (int first = 0; first < block; first += strip) multiply_strip(task, first);
+    if constexpr (to_rows)
+      if (task.last) add_row_sums(task);
+  }
+
+ private:
+  using Number = typename Entries::Number;
+  using L = Lanes<Number>;
+  using Vector = typename L::Vector;
+  static constexpr int width = L::width;
+  static constexpr int vectors = strip_vectors<Number, columns>;
+  static constexpr int strip = width * vectors;
+
+  /// All rows, `strip` columns wide from column `first`.
+  [[gnu::always_inline]] inline void multiply_strip(const Task& task, int first) const {
+    const bool fresh = first_ && first == 0;
+    Vector down[columns][vectors];
+#pragma GCC unroll 8
+    for (int c = 0; c < columns; ++c)
+#pragma GCC unroll 8
+      for (int v = 0; v < vectors; ++v) down[c][v] = L::zero();
+    entries_.template visit_rows<vectors>(
+        first, [&](int r, auto entry)
+                   __attribute__((always_inline)) { multiply_row(r, first, fresh, entry, down); });
+    if constexpr (to_columns)
+#pragma GCC unroll 8
+      for (int c = 0; c < columns; ++c)
+#pragma GCC unroll 8
+        for (int v = 0; v < vectors; ++v)
+          L::add_scaled(task.y_columns + c * block + first + v * width, down[c][v], task.x_rows_scale[c]);
+  }
+
+  template <typename Entry>
+  [[gnu::always_inline]] inline void multiply_row(int r, int first, bool fresh, Entry entry_of,
+                                                  Vector (&down)[columns][vectors]) const {
+    Vector across[columns];
+    Vector x_row[columns];
+#pragma GCC unroll 8
+    for (int c = 0; c < columns; ++c) {
+      if constexpr (to_rows) across[c] = fresh ? L::zero() : L::load(lanes(c, r));
+      if constexpr (to_columns) x_row[c] = L::broadcast(x_rows_[c * block + r]);
+    }
+#pragma GCC unroll 8
+    for (int v = 0; v < vectors; ++v) {
+      const Vector entry = entry_of(v);
+#pragma GCC unroll 8
+      for (int c = 0; c < columns; ++c) {
+        if constexpr (to_rows)
+          across[c] = L::multiply_add(entry, L::load(x_columns_ + c * block + first + v * width), across[c]);
+        if constexpr (to_columns) down[c][v] = L::multiply_add(entry, x_row[c], down[c][v]);
+      }
+    }
+    if constexpr (to_rows)
+#pragma GCC unroll 8
+      for (int c = 0; c < columns; ++c) L::store(lanes(c, r), across[c]);
+  }
+
   Number* lanes(int column, int row) const {
     return row_lanes_ + (column * block + row) * width;
   }
 
-  void add_row_sums(const TileTask<Scalar>& task) const {
+  void add_row_sums(const Task& task) const {
     const int whole_rows = (rows_ + width - 1) / width * width;
     for (int c = 0; c < columns; ++c) {
       for (int r = rows_; r < whole_rows; ++r) L::store(lanes(c, r), L::zero());
@@ -121,33 +162,34 @@ class TileLoop {
     }
   }
 
-  // Copies, which stay in registers: stores of vectors might alias the task.
-  const Scalar* entries_;
-  std::ptrdiff_t stride_;
+  Entries entries_;
   int rows_;
   bool first_;
-  const char* prefetch_;
-  bool every_line_;
   const Number* x_columns_;
   const Number* x_rows_;
   Number* row_lanes_;
 };
 
-template <typename Scalar, int columns, bool to_rows, bool to_columns>
-void multiply_tile(const TileTask<Scalar>& task) {
-  TileLoop<Scalar, columns, to_rows, to_columns>(task).run(task);
+template <typename Entries, int columns, bool to_rows, bool to_columns>
+void multiply_tile(const typename Entries::Task& task) {
+  TileLoop<Entries, columns, to_rows, to_columns>(task).run(task);
+}
+
+template <typename Entries, typename Scalar>
+void get_products(TileProducts<Scalar>& products) {
+  const TileProducts<Scalar> all = {
+      {multiply_tile<Entries, 1, true, true>, multiply_tile<Entries, 2, true, true>,
+       multiply_tile<Entries, 3, true, true>},
+      {multiply_tile<Entries, 1, true, false>, multiply_tile<Entries, 2, true, false>,
+       multiply_tile<Entries, 3, true, false>},
+      {multiply_tile<Entries, 1, false, true>, multiply_tile<Entries, 2, false, true>,
+       multiply_tile<Entries, 3, false, true>}};
+  products = all;
 }
 
 template <typename Scalar>
 void get_products(TileProducts<Scalar>& products) {
-  const TileProducts<Scalar> all = {
-      {multiply_tile<Scalar, 1, true, true>, multiply_tile<Scalar, 2, true, true>,
-       multiply_tile<Scalar, 3, true, true>},
-      {multiply_tile<Scalar, 1, true, false>, multiply_tile<Scalar, 2, true, false>,
-       multiply_tile<Scalar, 3, true, false>},
-      {multiply_tile<Scalar, 1, false, true>, multiply_tile<Scalar, 2, false, true>,
-       multiply_tile<Scalar, 3, false, true>}};
-  products = all;
+  get_products<StoredEntries<Scalar>>(products);
 }
 
 }  // namespace

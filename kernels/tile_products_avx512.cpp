@@ -5,6 +5,7 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+#include "kernels/bc4_row_avx512.inl"
 #include "kernels/tile_products.hpp"
 
 #include <immintrin.h>
@@ -91,11 +92,69 @@ constexpr int strip_vectors = 64 / Lanes<Number>::width;
 #include "kernels/tile_products.inl"
 
 namespace radiosity {
+namespace {
+
+/// A tile of BC4 blocks, decoded in registers: stored to a panel and loaded again its numbers take half as
+/// much time again.
+template <bool logarithmic>
+class Bc4Entries {
+ public:
+  using Task = TileTask<Bc4Block>;
+  using Number = float;
+
+  explicit Bc4Entries(const Task& task)
+      : blocks_(reinterpret_cast<const std::uint64_t*>(task.entries)),
+        prefetch_(task.prefetch),
+        curve_(*task.curve) {}
+
+  /// The palettes of a row of blocks are made while the texels of the one before it are multiplied: by itself
+  /// each is a chain of operations that wait for each other.
+  template <int vectors, typename Visit>
+  [[gnu::always_inline]] inline void visit_rows(int, Visit visit) const {
+    static_assert(vectors == 4);
+    const std::uint64_t* blocks = blocks_;
+    Bc4Row even;
+    Bc4Row odd;
+    even.get_palettes<logarithmic>(blocks, curve_);
+    for (int r = 0; r < block; r += 8, blocks += 32) {
+      for (int line = 0; line < 4; ++line) __builtin_prefetch(prefetch_ + r * 32 + line * 64);
+      odd.get_palettes<logarithmic>(blocks + 16, curve_);
+      visit_texels(r, blocks, even, visit);
+      if (r + 8 < block) even.get_palettes<logarithmic>(blocks + 32, curve_);
+      visit_texels(r + 4, blocks + 16, odd, visit);
+    }
+  }
+
+ private:
+  template <typename Visit>
+  [[gnu::always_inline]] static inline void visit_texels(int r, const std::uint64_t* blocks,
+                                                         const Bc4Row& palettes, Visit visit) {
+#pragma GCC unroll 2
+    for (int pair = 0; pair < 2; ++pair) {
+      const Bc4Row::TwoRows rows = Bc4Row::two_rows(blocks, pair);
+      visit(
+          r + 2 * pair, [&](int v) __attribute__((always_inline)) { return rows.first(palettes, v); });
+      visit(
+          r + 2 * pair + 1, [&](int v) __attribute__((always_inline)) { return rows.second(palettes, v); });
+    }
+  }
+
+  const std::uint64_t* blocks_;
+  const char* prefetch_;
+  TileCurve curve_;
+};
+
+}  // namespace
 
 void get_avx512_products(TileProducts<double>& f64, TileProducts<float>& f32, TileProducts<Half>& f16) {
   get_products(f64);
   get_products(f32);
   get_products(f16);
+}
+
+void get_avx512_products(TileProducts<Bc4Block>& linear, TileProducts<Bc4Block>& logarithmic) {
+  get_products<Bc4Entries<false>>(linear);
+  get_products<Bc4Entries<true>>(logarithmic);
 }
 
 }  // namespace radiosity

@@ -36,6 +36,34 @@ std::vector<Index> split_tile_rows(const TileDirectory& K) {
   return begin;
 }
 
+/// Which sums a tile adds to.
+enum class Sums { both, rows, columns };
+
+template <typename Scalar>
+typename TileProducts<Scalar>::Function product_of(const TileProducts<Scalar>& products, Sums sums,
+                                                   Index columns) {
+  const auto& functions = sums == Sums::both   ? products.both
+                          : sums == Sums::rows ? products.to_rows
+                                               : products.to_columns;
+  return functions[columns - 1];
+}
+
+/// The same pieces of X and Y for entries of another kind.
+template <typename To, typename From>
+TileTask<To> same_fields(const TileTask<From>& task) {
+  TileTask<To> other;
+  other.x_columns = task.x_columns;
+  other.x_columns_scale = task.x_columns_scale;
+  other.row_lanes = task.row_lanes;
+  other.first = task.first;
+  other.last = task.last;
+  other.y_rows = task.y_rows;
+  other.x_rows = task.x_rows;
+  other.x_rows_scale = task.x_rows_scale;
+  other.y_columns = task.y_columns;
+  return other;
+}
+
 /// Where the entries of a tile are: in memory as they are multiplied.
 template <typename Scalar>
 struct StoredSource {
@@ -43,37 +71,67 @@ struct StoredSource {
   static constexpr Index panel_entries = 0;
 
   const SymmetricTiles<Scalar>& K;
+  TileProducts<Scalar> products;
 
   static bool whole_diagonal() { return true; }  ///< whether a tile on the diagonal keeps both halves
-  const Entry* read(Index tile, Entry*) const { return K.tile_data(tile); }
-  static void fetch_ahead(TileTask<Entry>& task, Index columns) {
-    task.prefetch_every_line = columns >= 3;
-    task.prefetch =
-        reinterpret_cast<const char*>(task.entries) + (columns >= 3 ? tile_bytes_ahead : page_bytes);
+  const Entry* read(Index tile, Index, Entry*) const { return K.tile_data(tile); }
+  void multiply(Index, Sums sums, Index columns, bool first_time, TileTask<Entry>& task) const {
+    if (first_time) {
+      task.prefetch_every_line = columns >= 3;
+      task.prefetch =
+          reinterpret_cast<const char*>(task.entries) + (columns >= 3 ? tile_bytes_ahead : page_bytes);
+    }
+    product_of(products, sums, columns)(task);
   }
 };
 
-/// ... or decoded into a panel that stays in the first cache.
+/// ... or decoded, into a panel that stays in the first cache or, BC4 blocks of which no entry is kept apart,
+/// in registers.
 struct QuantizedSource {
   using Entry = float;
   static constexpr Index panel_entries = QuantizedTiles::tile_entries;
 
   const QuantizedTiles& K;
   TileDecoder decoder;
+  TileProducts<float> products;
+  TileProducts<Bc4Block> block_products;
+
+  QuantizedSource(const QuantizedTiles& tiles, InstructionSet instructions)
+      : K(tiles),
+        decoder(tile_decoder(instructions, K.format())),
+        products(tile_products<float>(instructions)) {
+    if (K.format().code == EntryCode::bc4) block_products = bc4_products(instructions, K.format().curve);
+  }
 
   bool whole_diagonal() const { return K.whole_diagonal(); }
-  const Entry* read(Index tile, Entry* panel) const {
+
+  /// Null: the tile is decoded as it is multiplied, which is done once for three columns.
+  const Entry* read(Index tile, Index columns, Entry* panel) const {
+    const std::size_t end = K.exact_begin(tile + 1);
+    if (block_products.both[0] != nullptr && columns <= TileProducts<Bc4Block>::most_columns &&
+        K.exact_begin(tile) == end)
+      return nullptr;
     if (decoder == nullptr)
       std::fill(panel, panel + panel_entries, 0.0F);
     else
       decoder(K.record(tile), K.record(tile) + tile_bytes_ahead, K.format().curve, panel);
     const std::uint16_t* position = K.exact_position().data();
     const float* value = K.exact_value().data();
-    const std::size_t end = K.exact_begin(tile + 1);
     for (std::size_t k = K.exact_begin(tile); k < end; ++k) panel[position[k]] = value[k];
     return panel;
   }
-  static void fetch_ahead(TileTask<Entry>&, Index) {}
+
+  void multiply(Index tile, Sums sums, Index columns, bool, TileTask<Entry>& task) const {
+    if (task.entries != nullptr) {
+      product_of(products, sums, columns)(task);
+      return;
+    }
+    auto blocks = same_fields<Bc4Block>(task);
+    blocks.entries = reinterpret_cast<const Bc4Block*>(K.record(tile));
+    blocks.prefetch = reinterpret_cast<const char*>(K.record(tile) + tile_bytes_ahead);
+    blocks.curve = &K.format().curve;
+    product_of(block_products, sums, columns)(blocks);
+  }
 };
 
 enum class Direction { forward, transposed };  ///< K X or K' X: the same for a symmetric K
@@ -85,13 +143,8 @@ class TileSweep {
   using Number = typename Multiplier<Entry>::Type;
 
   TileSweep(const TileDirectory& directory, const Source& source, Direction direction,
-            const BlockedField<Number>& X, PartialSums& sums, const TileProducts<Entry>& products)
-      : directory_(directory),
-        source_(source),
-        direction_(direction),
-        X_(X),
-        sums_(sums),
-        products_(products) {}
+            const BlockedField<Number>& X, PartialSums& sums)
+      : directory_(directory), source_(source), direction_(direction), X_(X), sums_(sums) {}
 
   void multiply_rows(Index chunk, Index first_row, Index last_row) {
     sums_.start(chunk);
@@ -99,13 +152,13 @@ class TileSweep {
     const AlignedBuffer<Entry> panel(static_cast<std::size_t>(Source::panel_entries));
     for (Index I = first_row; I < last_row; ++I)
       for (Index tile = directory_.row_begin(I); tile < directory_.row_begin(I + 1); ++tile)
-        multiply_tile(chunk, I, tile, source_.read(tile, panel.data()), lanes.data());
+        multiply_tile(chunk, I, tile, source_.read(tile, X_.columns(), panel.data()), lanes.data());
   }
 
  private:
-  Index column_groups() const {
-    return (X_.columns() + TileProducts<Entry>::most_columns - 1) / TileProducts<Entry>::most_columns;
-  }
+  static constexpr Index most_columns = TileProducts<Entry>::most_columns;
+
+  Index column_groups() const { return (X_.columns() + most_columns - 1) / most_columns; }
 
   /// Whether the tiles number `tile` and `tile` + 1 of tile row I are in one run of the sums along rows.
   bool in_one_run(Index I, Index tile) const {
@@ -117,12 +170,11 @@ class TileSweep {
     const Index J = directory_.tile_column(tile);
     const bool first = !in_one_run(I, tile - 1);
     const bool last = !in_one_run(I, tile);
-    for (Index c = 0; c < X_.columns(); c += products_.most_columns) {
-      const Index columns = std::min<Index>(products_.most_columns, X_.columns() - c);
+    for (Index c = 0; c < X_.columns(); c += most_columns) {
+      const Index columns = std::min(most_columns, X_.columns() - c);
       TileTask<Entry> task;
       task.entries = entries;
-      if (c == 0) Source::fetch_ahead(task, columns);
-      task.row_lanes = lanes + c / products_.most_columns * row_lanes_size<Entry>;
+      task.row_lanes = lanes + c / most_columns * row_lanes_size<Entry>;
       task.first = first;
       task.last = last;
       task.x_columns = X_.block(J) + 64 * c;
@@ -131,14 +183,13 @@ class TileSweep {
       task.x_rows = X_.block(I) + 64 * c;
       task.x_rows_scale = X_.scale(I) + c;
       task.y_columns = sums_.block(chunk, J) + 64 * c;
-      functions(I == J)[columns - 1](task);
+      source_.multiply(tile, sums_of(I == J), columns, c == 0, task);
     }
   }
 
-  const typename TileProducts<Entry>::Function* functions(bool on_diagonal) const {
-    if (!directory_.symmetric())
-      return direction_ == Direction::forward ? products_.to_rows : products_.to_columns;
-    return on_diagonal && source_.whole_diagonal() ? products_.to_rows : products_.both;
+  Sums sums_of(bool on_diagonal) const {
+    if (!directory_.symmetric()) return direction_ == Direction::forward ? Sums::rows : Sums::columns;
+    return on_diagonal && source_.whole_diagonal() ? Sums::rows : Sums::both;
   }
 
   const TileDirectory& directory_;
@@ -146,7 +197,6 @@ class TileSweep {
   Direction direction_;
   const BlockedField<Number>& X_;
   PartialSums& sums_;
-  const TileProducts<Entry>& products_;
 };
 
 /// The first block of Y that a chunk adds to: its own first one, or any where tiles lie below the diagonal.
@@ -158,17 +208,16 @@ std::vector<Index> first_blocks(const TileDirectory& directory, const std::vecto
 
 template <typename Source>
 void multiply_tiles(const TileDirectory& directory, const Source& source, Direction direction, double scale,
-                    const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
+                    const ConstFieldRef& X, FieldRef Y) {
   using Entry = typename Source::Entry;
   check_product_shapes(directory.size(), directory.size(), X, Y);
-  const TileProducts<Entry> products = tile_products<Entry>(instructions);
   const std::vector<Index> rows = split_tile_rows(directory);
   const std::vector<Index> first_block = first_blocks(directory, rows);
   for (Index first = 0; first < X.cols(); first += columns_at_once) {
     const Index columns = std::min(columns_at_once, X.cols() - first);
     const BlockedField<typename Multiplier<Entry>::Type> blocked(X, first, columns);
     PartialSums sums(blocked.blocks(), columns, first_block);
-    TileSweep<Source> product(directory, source, direction, blocked, sums, products);
+    TileSweep<Source> product(directory, source, direction, blocked, sums);
     parallel_for(first_block.size(), [&](std::size_t chunk) {
       product.multiply_rows(static_cast<Index>(chunk), rows[chunk], rows[chunk + 1]);
     });
@@ -179,7 +228,8 @@ void multiply_tiles(const TileDirectory& directory, const Source& source, Direct
 template <typename Scalar>
 void multiply_stored(const SymmetricTiles<Scalar>& K, const ConstFieldRef& X, FieldRef Y,
                      InstructionSet instructions) {
-  multiply_tiles(K.directory(), StoredSource<Scalar>{K}, Direction::forward, K.scale(), X, Y, instructions);
+  const StoredSource<Scalar> source{K, tile_products<Scalar>(instructions)};
+  multiply_tiles(K.directory(), source, Direction::forward, K.scale(), X, Y);
 }
 
 }  // namespace
@@ -198,14 +248,12 @@ void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
 }
 
 void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
-  const QuantizedSource source{K, tile_decoder(instructions, K.format())};
-  multiply_tiles(K.directory(), source, Direction::forward, K.scale(), X, Y, instructions);
+  multiply_tiles(K.directory(), QuantizedSource(K, instructions), Direction::forward, K.scale(), X, Y);
 }
 
 void multiply_transposed(const QuantizedTiles& M, const ConstFieldRef& X, FieldRef Y,
                          InstructionSet instructions) {
-  const QuantizedSource source{M, tile_decoder(instructions, M.format())};
-  multiply_tiles(M.directory(), source, Direction::transposed, M.scale(), X, Y, instructions);
+  multiply_tiles(M.directory(), QuantizedSource(M, instructions), Direction::transposed, M.scale(), X, Y);
 }
 
 }  // namespace radiosity

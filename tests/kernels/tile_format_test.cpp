@@ -109,6 +109,48 @@ TEST(TileFormat, ProductsMeetTheBoundOfFloat) {
       }
 }
 
+/// Keeps entries apart that are what they would be anyway, which takes each tile the way over decoded
+/// entries.
+void keep_first_entries_apart(QuantizedTiles& tiles) {
+  std::vector<QuantizedTiles::ExactEntries> exact;
+  for (Index tile = 0; tile < tiles.directory().tile_count(); ++tile) {
+    std::vector<float> entries(QuantizedTiles::tile_entries);
+    tiles.decode(tile, entries.data());
+    exact.push_back({{0}, {entries[0]}});
+  }
+  tiles.set_exact(exact);
+}
+
+TEST(TileFormat, BlocksGiveTheSameBitsDecodedInRegistersAndInMemory) {
+  for (const TileFormat& format : formats())
+    for (const bool symmetric : {true, false}) {
+      if (format.code != EntryCode::bc4) continue;
+      constexpr Index n = 320;
+      QuantizedTiles tiles = coded_tiles(symmetric ? upper(n) : TileDirectory::full(n), format, 76);
+      QuantizedTiles apart = coded_tiles(symmetric ? upper(n) : TileDirectory::full(n), format, 76);
+      tiles.set_exact(std::vector<QuantizedTiles::ExactEntries>(
+          static_cast<std::size_t>(tiles.directory().tile_count())));
+      apart.set_exact(std::vector<QuantizedTiles::ExactEntries>(
+          static_cast<std::size_t>(apart.directory().tile_count())));
+      keep_first_entries_apart(apart);
+      for (const Index columns : {1, 2, 3, 4})
+        for (const InstructionSet set : available_instruction_sets()) {
+          const Eigen::MatrixXd X = random_matrix(n, columns, 77);
+          Eigen::MatrixXd first(n, columns);
+          Eigen::MatrixXd second(n, columns);
+          multiply(tiles, X, first, set);
+          multiply(apart, X, second, set);
+          EXPECT_EQ(first, second) << name(set) << ", " << columns << " columns";
+          multiply_transposed(tiles, X, first, set);
+          multiply_transposed(apart, X, second, set);
+          EXPECT_EQ(first, second) << name(set) << ", " << columns << " columns, transposed";
+          // The random tiles on the diagonal of a symmetric matrix are not symmetric.
+          if (symmetric) continue;
+          EXPECT_TRUE(within_product_bound(materialize(tiles).transpose(), X, first, 0x1p-24));
+        }
+    }
+}
+
 TEST(TileFormat, FullProductsDoNotDependOnThreads) {
   const QuantizedTiles M = coded_tiles(TileDirectory::full(1200), formats()[4], 74);
   const Eigen::MatrixXd X = random_matrix(1200, 3, 75);
