@@ -1,6 +1,7 @@
 #include "gpu/hybrid_factors.hpp"
 
 #include "gpu/device_field.hpp"
+#include "gpu/segments_on_device.hpp"
 #include "kernels/products.hpp"
 #include "kernels/segment_sums.hpp"
 #include "kernels/stored_number.hpp"
@@ -13,9 +14,10 @@ namespace {
 
 constexpr Index columns_in_flight = device_columns_at_once;
 
-bool has_order(const HybridFactors::RightFactor& V) {
+std::shared_ptr<const GlBuffer> order_of_left(const std::shared_ptr<GlDevice>& device,
+                                              const HybridFactors::RightFactor& V) {
   const auto* segments = std::get_if<Segments>(&V);
-  return segments != nullptr && !segments->order().empty();
+  return segments == nullptr ? nullptr : order_on_device(device, *segments);
 }
 
 /// Coefficients on their way through the device, some columns at a time.
@@ -56,14 +58,9 @@ class LeftProduct {
 HybridFactors::HybridFactors(std::shared_ptr<GlDevice> device_of_left, const TallMatrix<float>& U,
                              RightFactor V, RowStrategy strategy)
     : DeviceMatrix(device_of_left, U.rows(), U.rows()),
-      left_(device_of_left, U, strategy, has_order(V)),
-      right_(std::move(V)) {
-  if (!has_order(right_)) return;
-  const CurrentContext current(*device().context());
-  const auto& order = std::get<Segments>(right_).order();
-  order_.emplace(device().context(), order.size() * sizeof order.front());
-  order_->write(0, order_->bytes(), order.data());
-}
+      order_(order_of_left(device_of_left, V)),
+      left_(device_of_left, U, strategy, order_),
+      right_(std::move(V)) {}
 
 void HybridFactors::multiply(const ConstFieldRef& X, FieldRef Y) const {
   if (rank() == 0) {
@@ -110,11 +107,10 @@ std::size_t HybridFactors::right_bytes() const {
 }
 
 ByteCount HybridFactors::bytes() const {
-  return {{{"U", left_.bytes() + (order_ ? order_->bytes() : 0)}, {"V", right_bytes()}}};
+  return {{{"U", left_.bytes() + (order_ != nullptr ? order_->bytes() : 0)}, {"V", right_bytes()}}};
 }
 
 void HybridFactors::dispatch(Index columns) const {
-  if (order_) order_->bind(TallOnDevice::order_binding);
   left_.multiply(columns);
 }
 

@@ -4,7 +4,7 @@
 #include "gpu/tall_on_device.hpp"
 #include "kernels/segments.hpp"
 
-#include <optional>
+#include <memory>
 #include <variant>
 
 namespace radiosity {
@@ -35,8 +35,8 @@ class HybridFactors final : public DeviceMatrix {
   void dispatch(Index columns) const override;
 
  private:
+  std::shared_ptr<const GlBuffer> order_;  ///< of rows; none: they are sorted already
   TallOnDevice left_;
-  std::optional<GlBuffer> order_;  ///< empty: rows are sorted already
   RightFactor right_;
 };
 

@@ -1,5 +1,6 @@
 #include "gpu/low_rank_frame.hpp"
 
+#include "foundation/error.hpp"
 #include "kernels/stored_number.hpp"
 
 #include <algorithm>
@@ -17,10 +18,17 @@ double unit_of(const ConstFieldRef& field) {
   return storage_scale<float>(field.size() == 0 ? 0 : field.cwiseAbs().maxCoeff());
 }
 
+/// The fields of frames are in float32.
+const FactorsOnDevice& require_float(const FactorsOnDevice& factors) {
+  if (factors.in_double())
+    fail<UsageError>("frames that stay on the device are in float32: take factors with storage=f32");
+  return factors;
+}
+
 }  // namespace
 
 LowRankFrame::LowRankFrame(const FactorsOnDevice& factors, Index columns)
-    : factors_(factors),
+    : factors_(require_float(factors)),
       emission_(factors.device().context(), factors.rows(), columns),
       product_(factors.device().context(), factors.rows(), columns),
       radiosity_(factors.device().context(), factors.rows(), columns),

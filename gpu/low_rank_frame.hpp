@@ -10,7 +10,8 @@ namespace radiosity {
 /// for it. The context is current in every call.
 class LowRankFrame {
  public:
-  /// `factors` outlive it. Throws Error where fields of so many columns do not fit.
+  /// `factors` outlive it. Throws UsageError where they are in double precision, and Error where fields of so
+  /// many columns do not fit.
   LowRankFrame(const FactorsOnDevice& factors, Index columns);
 
   /// E, n x c.

@@ -3,7 +3,8 @@
 namespace radiosity {
 namespace {
 
-Eigen::MatrixXd all_entries(const TallMatrix<float>& matrix) {
+template <typename Scalar>
+Eigen::MatrixXd all_entries(const TallMatrix<Scalar>& matrix) {
   return Eigen::MatrixXd::NullaryExpr(matrix.rows(), matrix.columns(),
                                       [&](Index e, Index p) { return matrix(e, p); });
 }
@@ -19,20 +20,27 @@ Eigen::MatrixXd all_entries(const Segments& segments) {
   return matrix;
 }
 
-TallMatrix<float> side_by_side(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
+Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
   Eigen::MatrixXd both(left.rows(), left.cols() + right.cols());
   both << left, right;
-  return TallMatrix<float>(both);
+  return both;
 }
 
 }  // namespace
 
-TallMatrix<float> full_left_factor(const TwoSidedOperator<float>& kernel) {
-  return side_by_side(all_entries(kernel.factor()), all_entries(kernel.indicators()));
+template <typename Scalar>
+TallMatrix<Scalar> full_left_factor(const TwoSidedOperator<Scalar>& kernel) {
+  return TallMatrix<Scalar>(side_by_side(all_entries(kernel.factor()), all_entries(kernel.indicators())));
 }
 
-TallMatrix<float> full_right_factor(const TwoSidedOperator<float>& kernel) {
-  return side_by_side(all_entries(kernel.indicators()), all_entries(kernel.factor()));
+template <typename Scalar>
+TallMatrix<Scalar> full_right_factor(const TwoSidedOperator<Scalar>& kernel) {
+  return TallMatrix<Scalar>(side_by_side(all_entries(kernel.indicators()), all_entries(kernel.factor())));
 }
+
+template TallMatrix<double> full_left_factor(const TwoSidedOperator<double>& kernel);
+template TallMatrix<float> full_left_factor(const TwoSidedOperator<float>& kernel);
+template TallMatrix<double> full_right_factor(const TwoSidedOperator<double>& kernel);
+template TallMatrix<float> full_right_factor(const TwoSidedOperator<float>& kernel);
 
 }  // namespace radiosity

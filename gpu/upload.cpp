@@ -72,18 +72,8 @@ class Uploader {
       return copy_texture(*stored);
     if (const auto* stored = dynamic_cast<const HasCompressedKernel*>(&original_)) return copy_tiles(*stored);
     if (const auto* stored = dynamic_cast<const HasStoredSeries*>(&original_)) return copy_series(*stored);
-    if (const auto* factors = dynamic_cast<const LowRankOperator<float>*>(&original_))
-      return with_factors<DeviceFactorsOperator, LowRankOnDevice>(*factors, factors->left_factor(),
-                                                                  factors->right_factor());
-    if (const auto* factors = dynamic_cast<const SparseVOperator<float>*>(&original_))
-      return with_factors<DeviceFactorsOperator, SparseVOnDevice>(*factors, factors->left_factor(),
-                                                                  factors->right_factor());
-    if (const auto* factors = dynamic_cast<const LowRankKernelOperator<float>*>(&original_))
-      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, factors->factor(),
-                                                                        factors->values());
-    if (const auto* factors = dynamic_cast<const TwoSidedOperator<float>*>(&original_))
-      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, full_left_factor(*factors),
-                                                                        full_right_factor(*factors));
+    if (auto factors = copy_factors<float>()) return factors;
+    if (auto factors = copy_factors<double>()) return factors;
     refuse(original_.describe());
   }
 
@@ -95,6 +85,24 @@ class Uploader {
       return std::make_unique<DeviceKernelOperator>(*kernel, std::move(matrix), origin());
     return std::make_unique<DeviceMatrixOperator>(dynamic_cast<const MatrixOperator&>(original_),
                                                   std::move(matrix), origin());
+  }
+
+  /// Nothing for operators that do not have factors of this kind.
+  template <typename Scalar>
+  std::unique_ptr<LinearOperator> copy_factors() const {
+    if (const auto* factors = dynamic_cast<const LowRankOperator<Scalar>*>(&original_))
+      return with_factors<DeviceFactorsOperator, LowRankOnDevice>(*factors, factors->left_factor(),
+                                                                  factors->right_factor());
+    if (const auto* factors = dynamic_cast<const SparseVOperator<Scalar>*>(&original_))
+      return with_factors<DeviceFactorsOperator, SparseVOnDevice>(*factors, factors->left_factor(),
+                                                                  factors->right_factor());
+    if (const auto* factors = dynamic_cast<const LowRankKernelOperator<Scalar>*>(&original_))
+      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, factors->factor(),
+                                                                        factors->values());
+    if (const auto* factors = dynamic_cast<const TwoSidedOperator<Scalar>*>(&original_))
+      return with_factors<DeviceKernelFactorsOperator, LowRankOnDevice>(*factors, full_left_factor(*factors),
+                                                                        full_right_factor(*factors));
+    return nullptr;
   }
 
   std::unique_ptr<LinearOperator> copy_in_two_places() const {
@@ -210,12 +218,12 @@ class Uploader {
   Stopwatch watch_;
 };
 
-/// Both products are within 2 (n + 8) u |A| |X| of the true one; factors, which are in float32, may have
-/// signs, whose terms cancel.
+/// Both products are within 2 (n + 8) u |A| |X| of the true one, relative to which 1700 u allow for signs,
+/// whose terms cancel.
 double allowed_difference(const LinearOperator& original, const LinearOperator& copy) {
+  constexpr double roundoffs_of_cancelling = 1700;  // 1e-4 in float32
   const double roundoff = std::max(original.product_roundoff(), copy.product_roundoff());
-  const double rounding = 4 * (static_cast<double>(copy.size()) + 8) * roundoff;
-  return roundoff < 0x1p-24 ? rounding : std::max(rounding, 1e-4);
+  return std::max(4 * (static_cast<double>(copy.size()) + 8), roundoffs_of_cancelling) * roundoff;
 }
 
 }  // namespace
@@ -231,6 +239,7 @@ const std::vector<std::string>& uploadable_specs() {
                                                  "quantized:bits=2",
                                                  "topk",
                                                  "svd:k=64",
+                                                 "svd:k=64,storage=f64",
                                                  "rsvd:k=64",
                                                  "qr:k=64",
                                                  "2msc:k=64",

@@ -2,14 +2,9 @@
 // work group walk along a row side by side; with one there is nothing to put together. ADDS: Y += M X. DOUBLE: in that
 // precision.
 #include "groups.glsl"
+#include "number.glsl"
 
 layout(local_size_x = INVOCATIONS) in;
-
-#if DOUBLE
-#define NUMBER double
-#else
-#define NUMBER float
-#endif
 
 const uint ROWS = INVOCATIONS / LANES;
 

@@ -1,15 +1,16 @@
 // C = V' X for COLUMNS columns, where V has one number a row (document 004, Eq. 7): LANES invocations, 64 or one, add up
-// one segment of the rows sorted by patch.
+// one segment of the rows sorted by patch. DOUBLE: in that precision.
 #include "groups.glsl"
+#include "number.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 1) readonly buffer X { float x[]; };
+layout(std430, binding = 1) readonly buffer X { NUMBER x[]; };
 #if WEIGHTED
-layout(std430, binding = 3) readonly buffer Weights { float weights[]; };  // by sorted position
+layout(std430, binding = 3) readonly buffer Weights { NUMBER weights[]; };  // by sorted position
 #endif
-layout(std430, binding = 4) writeonly buffer Coefficients { float coefficients[]; };
+layout(std430, binding = 4) writeonly buffer Coefficients { NUMBER coefficients[]; };
 #if ORDERED
 layout(std430, binding = 5) readonly buffer Order { uint order[]; };  // the row at each sorted position
 #endif
@@ -20,14 +21,14 @@ uniform uint sum_stride;  // between columns of coefficients
 uniform uint first_column;
 
 #if LANES > 1
-shared float sums[COLUMNS][64];
+shared NUMBER sums[COLUMNS][64];
 #endif
 
 void main() {
   uint segment = (group_index() * 64 + gl_LocalInvocationID.x) / LANES;
   if (segment >= segments) return;  // the whole group where lanes share it
   uint lane = gl_LocalInvocationID.x % LANES;
-  float sum[COLUMNS];
+  NUMBER sum[COLUMNS];
   for (uint c = 0; c < COLUMNS; ++c) sum[c] = 0;
   uint end = offsets[segment + 1];
   for (uint i = offsets[segment] + lane; i < end; i += LANES) {
@@ -37,9 +38,9 @@ void main() {
     uint row = i;
 #endif
 #if WEIGHTED
-    float weight = weights[i];
+    NUMBER weight = weights[i];
 #else
-    const float weight = 1;
+    const NUMBER weight = 1;
 #endif
     for (uint c = 0; c < COLUMNS; ++c) sum[c] += weight * x[(first_column + c) * x_stride + row];
   }

@@ -1,12 +1,13 @@
-// Coefficients from their sums over chunks, times a number each where SCALED.
+// Coefficients from their sums over chunks, times a number each where SCALED. DOUBLE: in that precision.
 #include "groups.glsl"
+#include "number.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 3) readonly buffer Sums { float chunk_sums[]; };
-layout(std430, binding = 4) writeonly buffer Coefficients { float coefficients[]; };
+layout(std430, binding = 3) readonly buffer Sums { NUMBER chunk_sums[]; };
+layout(std430, binding = 4) writeonly buffer Coefficients { NUMBER coefficients[]; };
 #if SCALED
-layout(std430, binding = 5) readonly buffer Values { float values[]; };
+layout(std430, binding = 5) readonly buffer Values { NUMBER values[]; };
 #endif
 
 uniform uint chunks;
@@ -19,7 +20,7 @@ void main() {
   uint column = index / stride;
   uint p = index % stride;
   if (column >= columns || p >= rank) return;
-  float sum = 0;
+  NUMBER sum = 0;
   for (uint chunk = 0; chunk < chunks; ++chunk) sum += chunk_sums[(chunk * columns + column) * stride + p];
 #if SCALED
   sum *= values[p];

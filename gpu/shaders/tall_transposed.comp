@@ -1,13 +1,14 @@
 // Sums of M' X over chunks of panels, for COLUMNS columns and a tall M in panels of 64 rows, which are stored by
 // columns. A work group has one column of M and one chunk: its 64 invocations read a column of a panel side by side
-// and meet in shared memory once, after all panels.
+// and meet in shared memory once, after all panels. DOUBLE: in that precision.
 #include "groups.glsl"
+#include "number.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) readonly buffer Panels { float panels[]; };
-layout(std430, binding = 1) readonly buffer X { float x[]; };
-layout(std430, binding = 3) writeonly buffer Sums { float chunk_sums[]; };
+layout(std430, binding = 0) readonly buffer Panels { NUMBER panels[]; };
+layout(std430, binding = 1) readonly buffer X { NUMBER x[]; };
+layout(std430, binding = 3) writeonly buffer Sums { NUMBER chunk_sums[]; };
 
 uniform uint rank;
 uniform uint first_panel;      // in this block of storage
@@ -19,7 +20,7 @@ uniform uint x_stride;
 uniform uint sum_stride;       // between columns of sums
 uniform uint first_column;
 
-shared float sums[COLUMNS][64];
+shared NUMBER sums[COLUMNS][64];
 
 void main() {
   uint chunk = group_index() / rank;
@@ -28,10 +29,10 @@ void main() {
   if (begin >= block_panels) return;  // the whole group
   uint end = min(begin + panels_of_chunk, block_panels);
   uint lane = gl_LocalInvocationID.x;
-  float sum[COLUMNS];
+  NUMBER sum[COLUMNS];
   for (uint c = 0; c < COLUMNS; ++c) sum[c] = 0;
   for (uint panel = begin; panel < end; ++panel) {
-    float value = panels[(panel * rank + p) * 64 + lane];
+    NUMBER value = panels[(panel * rank + p) * 64 + lane];
     for (uint c = 0; c < COLUMNS; ++c)
       sum[c] += value * x[(first_column + c) * x_stride + (first_panel + panel) * 64 + lane];
   }

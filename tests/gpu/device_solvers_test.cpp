@@ -189,5 +189,21 @@ TEST_F(DeviceSolvers, LeaveToTheCpuWhatHasNoFormForTheDevice) {
   EXPECT_THROW(solver("cg:fields=device", *unsymmetric, data.root_area), UsageError);
 }
 
+/// Products on the device, fields on the CPU: float32 would stop at 1e-7.
+TEST_F(DeviceSolvers, ReachDoublePrecisionWithFactorsThatHaveIt) {
+  const TransportCase data = coloured_room();
+  const Field E = lights(data);
+  for (const std::string spec : {"svd:k=9,storage=f64", "svd:k=9,norm=area,storage=f64"}) {
+    const auto original = cpu_operators().make(spec, data.form_factors);
+    const auto transport = on_device(spec, data.form_factors);
+    const Field B = solve(*cpu_solvers().make("lu", {*original, data.root_area, {}}), E);
+    for (const char* name : {"woodbury", "gmres"}) {
+      const auto found = solver(name, *transport, data.root_area, 1e-13);
+      EXPECT_LE(difference(data.root_area, solve(*found, E), B), 1e-12) << spec << " " << name;
+    }
+    EXPECT_THROW(solver("neumann:fields=device", *transport, data.root_area), UsageError) << spec;
+  }
+}
+
 }  // namespace
 }  // namespace radiosity

@@ -75,5 +75,12 @@ TEST_F(Frames, StayAsExactWhileALightMovesThroughAHundred) {
   EXPECT_EQ(device()->context()->traffic().receipts, before.receipts + 100);
 }
 
+TEST_F(Frames, RefuseFactorsInDoublePrecision) {
+  const TallMatrix<double> Y(random_matrix(200, 4, 1));
+  const LowRankOnDevice factors(device(), Y, Y, RowStrategy::group);
+  const CurrentContext current(*device()->context());
+  EXPECT_THROW(LowRankFrame(factors, 1), UsageError);
+}
+
 }  // namespace
 }  // namespace radiosity

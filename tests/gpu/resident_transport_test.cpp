@@ -111,6 +111,8 @@ TEST_F(FrameTransport, RefusesWhatIsNotOnTheDeviceAsAWhole) {
                UsageError);
   EXPECT_THROW(ResidentTransport(device(), *cpu_operators().make("dense:f32", form_factors), 1), UsageError);
   EXPECT_THROW(ResidentTransport(device(), *registry.make("dense:f32", form_factors), 0), UsageError);
+  EXPECT_THROW(ResidentTransport(device(), *registry.make("svd:k=20,storage=f64", form_factors), 1),
+               UsageError);
 }
 
 }  // namespace

@@ -53,16 +53,19 @@ inline std::vector<ShaderVariant> shader_variants() {
     variants.push_back({plain, {}});
   for (const int lanes : {1, 16})
     variants.push_back({"dense_double.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
-  variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}}});
   variants.push_back({"tall_transposed_texels.comp", {{"COLUMNS", 4}, {"SHARE", 4}}});
   variants.push_back({"tall_product_texels.comp", {{"COLUMNS", 4}, {"ORDERED", 1}}});
   for (const int present : {0, 1}) {
-    variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}}});
+    variants.push_back({"tall_product.comp", {{"COLUMNS", 4}, {"ORDERED", present}, {"DOUBLE", present}}});
+    variants.push_back({"tall_transposed.comp", {{"COLUMNS", 4}, {"DOUBLE", present}}});
     variants.push_back({"transport_step.comp", {{"FIRST", present}}});
-    variants.push_back({"sum_chunks.comp", {{"SCALED", present}}});
-    variants.push_back(
-        {"segment_sums.comp",
-         {{"COLUMNS", 4}, {"ORDERED", present}, {"WEIGHTED", present}, {"LANES", present == 1 ? 64 : 1}}});
+    variants.push_back({"sum_chunks.comp", {{"SCALED", present}, {"DOUBLE", present}}});
+    variants.push_back({"segment_sums.comp",
+                        {{"COLUMNS", 4},
+                         {"ORDERED", present},
+                         {"WEIGHTED", present},
+                         {"LANES", present == 1 ? 64 : 1},
+                         {"DOUBLE", present}}});
   }
   variants.push_back({"frame_sum.comp", {}});
   variants.push_back({"neumann_step.comp", {{"SUMS", 1}, {"SHARED", 1}}});
