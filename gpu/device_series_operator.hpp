@@ -8,12 +8,13 @@
 
 namespace radiosity {
 
-/// E -> B = E + S E with S = G - I on the device, one a distinct reflectance.
+/// E -> B = E + S D E with S D = G - I: matrices S on the device, one a distinct reflectance, and a diagonal
+/// D.
 class DeviceSeriesOperator final : public DeviceOperator<LinearOperator> {
  public:
-  /// `series`: in the order of DistinctReflectances; `reflectance`: n x channels.
+  /// `series`: in the order of DistinctReflectances; `reflectance`: n x channels; `before`: D, n numbers.
   DeviceSeriesOperator(const Eigen::MatrixXd& reflectance, std::vector<std::unique_ptr<DeviceMatrix>> series,
-                       DeviceOrigin origin);
+                       Eigen::VectorXd before, DeviceOrigin origin);
 
   Index size() const override { return reflectance_.rows(); }
   Index channels() const override { return reflectance_.cols(); }
@@ -26,6 +27,7 @@ class DeviceSeriesOperator final : public DeviceOperator<LinearOperator> {
  private:
   Eigen::MatrixXd reflectance_;
   DistinctReflectances reflectances_;
+  Eigen::VectorXd before_;
 };
 
 }  // namespace radiosity

@@ -1,6 +1,7 @@
 #include "gpu/gl_operators.hpp"
 
 #include "gpu/upload.hpp"
+#include "operators/global_operator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,16 +35,25 @@ BlockPlacement take_blocks(Spec& spec) {
                                                                              : BlockPlacement::buffer;
 }
 
+/// What is copied to a device: the operator of the CPU, or its global operator.
+std::unique_ptr<LinearOperator> make_original(const OperatorEntry& on_cpu, Spec& spec,
+                                              const FormFactors& form_factors) {
+  const bool global = !on_cpu.makes_global && spec.flag("global");
+  auto made = on_cpu.make(spec, form_factors);
+  return global ? std::make_unique<GlobalOperator>(std::move(made)) : std::move(made);
+}
+
 }  // namespace
 
 OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const OperatorRegistry& cpu) {
   OperatorRegistry registry;
   for (OperatorEntry entry : cpu.entries()) {
-    entry.make = [make = entry.make, device](Spec& spec, const FormFactors& form_factors) {
+    entry.make = [on_cpu = entry, device](Spec& spec, const FormFactors& form_factors) {
       require_uploadable(spec.name());
       const UploadChoice choice{take_strategy(spec), take_placement(spec), take_blocks(spec)};
-      return upload(device, *make(spec, form_factors), choice);
+      return upload(device, *make_original(on_cpu, spec, form_factors), choice);
     };
+    entry.makes_global = true;
     registry.add(std::move(entry));
   }
   return registry;

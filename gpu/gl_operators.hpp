@@ -7,11 +7,11 @@
 
 namespace radiosity {
 
-/// The operators of `cpu` on a device: each is built on the CPU and copied (gpu/upload.hpp). Each
-/// has a further key, `strategy=auto|group|invocation` (RowStrategy; auto: the device's
-/// own), those of low rank also `placement=device|hybrid` (Placement), `dxt` with BC1 blocks also
-/// `blocks=buffer|texture` (BlockPlacement). Those that have no form for the device
-/// stay in the list and are refused when they are made; closures act on what is on the device.
+/// The operators of `cpu` on a device: each, or its global operator, is built on the CPU and copied
+/// (gpu/upload.hpp). Each has a further key, `strategy=auto|group|invocation` (RowStrategy; auto: the
+/// device's own), those of low rank also `placement=device|hybrid` (Placement), `dxt` with BC1 blocks also
+/// `blocks=buffer|texture` (BlockPlacement). Those that have no form for the device stay in the list and are
+/// refused when they are made; closures act on what is on the device.
 OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const OperatorRegistry& cpu);
 
 }  // namespace radiosity

@@ -10,6 +10,7 @@
 #include "gpu/device_factors_operator.hpp"
 #include "gpu/device_operator.hpp"
 #include "gpu/device_series_operator.hpp"
+#include "gpu/global_factors.hpp"
 #include "gpu/low_rank_on_device.hpp"
 #include "gpu/sampled_texture_on_device.hpp"
 #include "gpu/sampling_difference.hpp"
@@ -72,6 +73,7 @@ class Uploader {
       return copy_texture(*stored);
     if (const auto* stored = dynamic_cast<const HasCompressedKernel*>(&original_)) return copy_tiles(*stored);
     if (const auto* stored = dynamic_cast<const HasStoredSeries*>(&original_)) return copy_series(*stored);
+    if (const auto* global = dynamic_cast<const GlobalOperator*>(&original_)) return copy_global(*global);
     if (auto factors = copy_factors<float>()) return factors;
     if (auto factors = copy_factors<double>()) return factors;
     refuse(original_.describe());
@@ -168,7 +170,15 @@ class Uploader {
   std::unique_ptr<LinearOperator> copy_series(const HasStoredSeries& stored) const {
     std::vector<Copy> matrices;
     for (const CsrMatrix<float>* matrix : stored.stored_series()) matrices.push_back(copy_matrix(*matrix));
-    return std::make_unique<DeviceSeriesOperator>(stored.reflectance(), std::move(matrices), origin());
+    return std::make_unique<DeviceSeriesOperator>(stored.reflectance(), std::move(matrices),
+                                                  Eigen::VectorXd::Ones(original_.size()), origin());
+  }
+
+  std::unique_ptr<LinearOperator> copy_global(const GlobalOperator& global) const {
+    GlobalFactors factors = global_factors_on_device(device_, global, strategy_);
+    if (factors.products.empty()) refuse(original_.describe());
+    return std::make_unique<DeviceSeriesOperator>(global.reflectance(), std::move(factors.products),
+                                                  std::move(factors.before), origin());
   }
 
   std::unique_ptr<LinearOperator> copy_colours(const HasStoredColours& stored) const {
@@ -240,6 +250,7 @@ const std::vector<std::string>& uploadable_specs() {
                                                  "topk",
                                                  "svd:k=64",
                                                  "svd:k=64,storage=f64",
+                                                 "svd:k=64,global=1",
                                                  "rsvd:k=64",
                                                  "qr:k=64",
                                                  "2msc:k=64",

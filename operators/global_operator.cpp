@@ -18,7 +18,8 @@ constexpr double single_precision_condition = 1e6;
 const LowRankFactors* require_factors(const LinearOperator& transport) {
   const auto* factors = dynamic_cast<const LowRankFactors*>(&transport);
   if (transport.device_use())
-    fail<UsageError>("global=1 needs the factors of {} on the CPU: use --device cpu", transport.describe());
+    fail<UsageError>("global=1 needs the factors of {} on the CPU: copy its global operator to the device",
+                     transport.describe());
   if (factors == nullptr)
     fail<UsageError>(
         "global=1 needs an operator of low rank, such as svd:k=64, which {} is not: leave it away",

@@ -20,6 +20,8 @@ namespace radiosity {
 /// says so. U stays in memory with V; no product reads it and bytes() does not count it.
 class GlobalOperator final : public LinearOperator {
  public:
+  using LeftFactor = std::variant<FactorMatrix<float>, FactorMatrix<double>>;
+
   /// Throws UsageError if the operator is not of low rank; Error if I - T is singular, or if light grows at
   /// every bounce (det (I - T) < 0 proves a spectral radius above 1), so that G is not the sum of bounces.
   explicit GlobalOperator(std::unique_ptr<LinearOperator> transport);
@@ -33,6 +35,10 @@ class GlobalOperator final : public LinearOperator {
   std::string remark() const override { return remark_; }
 
   Index rank() const { return factors_->rank(); }
+  /// T, whose V this is, and Y, one a distinct reflectance (DistinctReflectances), all in one precision.
+  const LinearOperator& transport() const { return *transport_; }
+  const Eigen::MatrixXd& reflectance() const { return factors_->albedo(); }
+  const std::vector<LeftFactor>& left_factors() const { return Y_; }
   /// I + |Y| |V'|, n x n, the largest over channels: the size of what cancels in the entries of G.
   Eigen::MatrixXd term_sizes() const;
 
@@ -44,7 +50,7 @@ class GlobalOperator final : public LinearOperator {
   const LowRankFactors* factors_;  ///< of transport_
   DistinctReflectances reflectances_;
   InstructionSet instructions_ = best_instruction_set();
-  std::vector<std::variant<FactorMatrix<float>, FactorMatrix<double>>> Y_;  ///< one a distinct reflectance
+  std::vector<LeftFactor> Y_;  ///< one a distinct reflectance
   std::string remark_;
 };
 

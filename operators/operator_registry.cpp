@@ -59,7 +59,7 @@ std::unique_ptr<LinearOperator> OperatorRegistry::make(const std::string& spec_t
   const OperatorEntry& found = entry(spec);
   check_form_factors(form_factors, needs_form_factors(spec_text));
   const ClosureChoice closure = ClosureChoice::take(spec, found.closure);
-  const bool global = spec.flag("global");
+  const bool global = !found.makes_global && spec.flag("global");
   auto made = found.make(spec, form_factors);
   spec.finish();
   made = close_operator(std::move(made), closure, form_factors);

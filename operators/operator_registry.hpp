@@ -20,6 +20,7 @@ struct OperatorEntry {
   bool lossy = false;   ///< is further from T than the rounding of its storage: measured by its certificate
   bool direct = false;  ///< with factors=direct in its spec it needs the mesh of the form factors only, not F
   bool cubic = false;   ///< takes O(n^3) to build: left out of benchmarks unless it is named
+  bool makes_global = false;               ///< `make` takes the key `global` itself
   std::vector<std::string> variants = {};  ///< further specs that tests and benchmarks take along
 };
 

@@ -1,3 +1,4 @@
+#include "form_factors/exact_rooms.hpp"
 #include "foundation/random.hpp"
 #include "gpu/dense_on_device.hpp"
 #include "gpu/gl_operators.hpp"
@@ -178,10 +179,41 @@ TEST_F(DeviceUses, AreThereForEveryOperatorOfTheRegistryAndForWhatIsSaidToBeTake
     specs.push_back(entry.defaults);
     specs.insert(specs.end(), entry.variants.begin(), entry.variants.end());
   }
-  for (const std::string& spec : specs) {
-    if (spec.find("global=1") != std::string::npos) continue;  // its factors are on the CPU
+  for (const std::string& spec : specs)
     EXPECT_TRUE(registry.make(spec, form_factors)->device_use().has_value()) << spec;
+}
+
+std::size_t bytes_of_part(const LinearOperator& transport, const std::string& name) {
+  for (const auto& [part, bytes] : transport.bytes().parts)
+    if (part == name) return bytes;
+  return 0;
+}
+
+/// Full panels: there is no padding but the CPU's.
+TEST_F(DeviceUses, OfGlobalOperatorsHaveOneVForAllReflectances) {
+  const FormFactors F = form_factors_of(exact_rooms::open_room(128, 3, 3));
+  for (const char* spec : {"svd:k=20,global=1", "svd:k=20,storage=f64,global=1"}) {
+    const auto original = cpu_operators().make(spec, F);
+    const auto copy = gl_operators(device(), cpu_operators()).make(spec, F);
+    for (const char* part : {"Y", "V"})
+      EXPECT_EQ(bytes_of_part(*copy, part), bytes_of_part(*original, part)) << spec << " " << part;
   }
+}
+
+TEST_F(DeviceUses, OfGlobalOperatorsThatNeedDoublePrecisionHaveIt) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  const auto roundoff = [&](double reflectance) {
+    const FormFactors F = form_factors_of(exact_rooms::sphere_cavity(70, 4, reflectance));
+    return registry.make("svd:k=4,global=1", F)->product_roundoff();
+  };
+  EXPECT_EQ(roundoff(0.9), 0x1p-24);
+  EXPECT_EQ(roundoff(1 - 1e-6), 0x1p-53) << "Y is in float64 on the CPU too";
+}
+
+TEST_F(DeviceUses, OfGlobalOperatorsTakeNoClosure) {
+  const auto registry = gl_operators(device(), cpu_operators());
+  for (const char* spec : {"svd:k=4,global=1,closure=rows", "dense:f32,global=1"})
+    EXPECT_THROW(registry.make(spec, random_room(70)), UsageError) << spec;
 }
 
 /// Closures are around what is on a device.
@@ -234,11 +266,24 @@ TEST(CompareProducts, RefusesACopyThatComputesSomethingElse) {
   }
 }
 
+TEST(CompareProducts, RefusesInDoublePrecisionWhatIsOffByABillionth) {
+  const Index n = 130;
+  Eigen::MatrixXd kernel = random_kernel(n, 7);
+  const auto in_double = [&] {
+    return cpu_operators().make("dense", symmetric_form_factors(kernel, Eigen::VectorXd::Ones(n),
+                                                                Eigen::MatrixXd::Constant(n, 1, 0.7)));
+  };
+  const auto original = in_double();
+  EXPECT_NO_THROW(compare_products(*original, *in_double(), "a device"));
+  kernel(3, 5) = kernel(5, 3) += 1e-9 / static_cast<double>(n);
+  EXPECT_THROW(compare_products(*original, *in_double(), "a device"), Error);
+}
+
 TEST_F(LimitedDevice, RefusesTwoPlacesForWhatHasNotTwoFactors) {
   const auto registry = gl_operators(device(), cpu_operators());
-  for (const char* spec :
-       {"svd:k=8,norm=area,method=lanczos,placement=hybrid", "dense:f32,placement=hybrid",
-        "svd:k=8,storage=f64,placement=hybrid", "sparse-v:k=8,storage=f64,placement=hybrid"})
+  for (const char* spec : {"svd:k=8,norm=area,method=lanczos,placement=hybrid", "dense:f32,placement=hybrid",
+                           "svd:k=8,storage=f64,placement=hybrid",
+                           "sparse-v:k=8,storage=f64,placement=hybrid", "svd:k=8,global=1,placement=hybrid"})
     EXPECT_THROW(registry.make(spec, random_room(70)), UsageError) << spec;
 }
 
@@ -342,6 +387,14 @@ INSTANTIATE_TEST_SUITE_P(FactorsInDouble, DeviceCopies,
                                          "2msc:k=9,sides=two,storage=f64,strategy=group",
                                          "sparse-v:k=8,storage=f64,strategy=group",
                                          "sparse-v:k=7,storage=f64,strategy=invocation"),
+                         spec_name);
+INSTANTIATE_TEST_SUITE_P(Global, DeviceCopies,
+                         testing::Values("svd:k=8,global=1,strategy=group",
+                                         "svd:k=9,storage=f64,global=1,strategy=invocation",
+                                         "svd:k=19,norm=area,method=lanczos,global=1,strategy=invocation",
+                                         "2msc:k=9,sides=two,storage=f64,global=1,strategy=group",
+                                         "sparse-v:k=8,global=1,strategy=group",
+                                         "sparse-v:k=7,storage=f64,global=1,strategy=invocation"),
                          spec_name);
 INSTANTIATE_TEST_SUITE_P(Bounces, DeviceCopies,
                          testing::Values("bounces:k=3,storage=f32", "bounces:k=2,storage=f16"), spec_name);
