@@ -46,11 +46,22 @@ TEST_F(Device, IsDescribedByInfo) {
   EXPECT_TRUE(json("cpu.json")["device"].is_null());
 }
 
-TEST_F(Device, RefusesFactorsInDoublePrecisionWithAListOfWhatItTakes) {
+TEST_F(Device, MultipliesInDoublePrecisionWithFactorsAndGlobalOperators) {
   const ProcessResult result =
-      run({"solve", "cube", "--patches", "54", "--device", "gl", "--operator", "svd:k=4,storage=f64"});
+      run({"compare", "cube", "--patches", "54", "--device", "gl", "--operators", "svd:k=4,storage=f64",
+           "svd:k=4,storage=f64,global=1", "--lights", "area:1", "--json", "c.json", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  for (const auto& entry : json("c.json")["results"]) {
+    EXPECT_EQ(entry["device"], "gl");
+    EXPECT_LT(entry["device_difference_max"], 1e-13);
+  }
+}
+
+TEST_F(Device, RefusesTwoPlacesForFactorsInDoublePrecision) {
+  const ProcessResult result = run({"solve", "cube", "--patches", "54", "--device", "gl", "--operator",
+                                    "svd:k=4,storage=f64,placement=hybrid"});
   EXPECT_EQ(result.exit_code, 2);
-  for (const char* part : {"svd:k=4", "storage=f64", "--device gl", "dense:f32", "neumann-sparse"})
+  for (const char* part : {"svd:k=4", "storage=f64", "placement=hybrid", "in float32"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
 }
 
