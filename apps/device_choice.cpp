@@ -32,7 +32,10 @@ std::shared_ptr<GlDevice> open_device(const RunOptions& options, const GlContext
 
 Program on_device(const Program& program, const RunOptions& options, const std::vector<std::string>& specs) {
   require_known_device(options);
-  if (options.device == "cpu") return program;
+  if (options.device == "cpu") {
+    for (const std::string& spec : specs) require_no_device_keys(spec);
+    return program;
+  }
   for (const std::string& spec : specs) require_uploadable(spec);
   return {gl_operators(open_device(options), program.operators), gl_solvers(program.solvers)};
 }

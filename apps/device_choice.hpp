@@ -17,7 +17,7 @@ namespace radiosity {
 std::shared_ptr<GlDevice> open_device(const RunOptions& options, const GlContextOptions& context = {});
 
 /// The program with its operators on that device. Throws as open_device() does, and UsageError where one of
-/// `specs` cannot run there, before anything is computed.
+/// `specs` cannot run there or, on the CPU, has a key for devices alone, before anything is computed.
 Program on_device(const Program& program, const RunOptions& options, const std::vector<std::string>& specs);
 
 /// For commands that multiply with no operator: throws UsageError for every device but cpu.

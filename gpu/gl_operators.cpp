@@ -1,5 +1,6 @@
 #include "gpu/gl_operators.hpp"
 
+#include "foundation/error.hpp"
 #include "gpu/upload.hpp"
 #include "operators/global_operator.hpp"
 
@@ -57,6 +58,17 @@ OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const Ope
     registry.add(std::move(entry));
   }
   return registry;
+}
+
+void require_no_device_keys(const std::string& spec_text) {
+  Spec spec = Spec::parse(spec_text);
+  for (const char* key : {"strategy", "placement", "blocks"}) {
+    const std::string value = spec.text(key, "");
+    const bool of_closure = key == std::string_view("blocks") && value != "buffer" && value != "texture";
+    if (!value.empty() && !of_closure)
+      fail<UsageError>("'{}': {}={} is for operators on a device: take --device gl, or leave it away",
+                       spec_text, key, value);
+  }
 }
 
 }  // namespace radiosity

@@ -14,4 +14,8 @@ namespace radiosity {
 /// refused when they are made; closures act on what is on the device.
 OperatorRegistry gl_operators(const std::shared_ptr<GlDevice>& device, const OperatorRegistry& cpu);
 
+/// For operators that stay on the CPU: throws UsageError, which says so, where `spec` asks for what only
+/// devices do: `strategy=...`, `placement=...`, `blocks=buffer` or `blocks=texture`.
+void require_no_device_keys(const std::string& spec);
+
 }  // namespace radiosity
