@@ -61,15 +61,11 @@ void SampledTextureOnDevice::dispatch_part(const BlockTextures::Part& part, Inde
   glBindTexture(GL_TEXTURE_2D, part.texture->get());
   curve_.bind(curve_binding);
   const Index rows_together = invocations_of_sampling_group / lanes_of_sampling(strategy());
-  const GlProgram& program = *program_;
-  program.use();
-  program.set("block_columns", block_columns_);
-  program.set("blocks_across", textures_.blocks_across());
-  program.set("first_block_row", part.first_row);
-  program.set("part_block_rows", part.rows);
-  program.set("y_stride", FieldBuffers::padded(rows()));
-  program.set("first_column", first_column);
-  program.dispatch((part.rows + rows_together - 1) / rows_together);
+  program_->use();
+  program_->set("blocks_across", textures_.blocks_across());
+  dispatch_block_rows(
+      *program_, {part.first_row, part.rows, rows_together, block_columns_, FieldBuffers::padded(rows())},
+      first_column);
 }
 
 }  // namespace radiosity

@@ -81,6 +81,15 @@ KeptApart kept_apart_of(const ColourTexture& texture, const std::vector<ExactRow
   return result;
 }
 
+void dispatch_block_rows(const GlProgram& program, const BlockRows& rows, Index first_column) {
+  program.set("block_columns", rows.columns);
+  program.set("first_block_row", rows.first);
+  program.set("part_block_rows", rows.count);
+  program.set("y_stride", rows.y_stride);
+  program.set("first_column", first_column);
+  program.dispatch((rows.count + rows.together - 1) / rows.together);
+}
+
 TextureOnDevice::TextureOnDevice(const std::shared_ptr<GlDevice>& device, const ColourTexture& texture,
                                  const std::vector<ExactRows>& exact, RowStrategy strategy)
     : TextureOnDevice(device, texture, kept_apart_of(texture, exact), strategy) {}
@@ -137,14 +146,10 @@ void TextureOnDevice::dispatch_part(const StoredRows::Part& part, Index first_co
     part.buffer.bind(blocks_binding);
   tables_.bind(tables_binding);
   const Index rows_together = by_texels ? block_rows_of_vector(channels()) : 1;
-  const GlProgram& program = *program_;
-  program.use();
-  program.set("block_columns", block_columns_);
-  program.set("first_block_row", part.first_row);
-  program.set("part_block_rows", part.rows);
-  program.set("y_stride", FieldBuffers::padded(rows()));
-  program.set("first_column", first_column);
-  program.dispatch((part.rows + rows_together - 1) / rows_together);
+  program_->use();
+  dispatch_block_rows(
+      *program_, {part.first_row, part.rows, rows_together, block_columns_, FieldBuffers::padded(rows())},
+      first_column);
 }
 
 }  // namespace radiosity

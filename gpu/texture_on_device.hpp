@@ -18,6 +18,19 @@ enum class BlockPlacement { buffer, texture };
 /// The entries that are added to a texture; their scale is above each of them and above the texture's scales.
 KeptApart kept_apart_of(const ColourTexture& texture, const std::vector<ExactRows>& exact);
 
+/// What a shader for BC1 blocks multiplies with at a time.
+struct BlockRows {
+  Index first;     ///< row of blocks of the matrix
+  Index count;     ///< of such rows
+  Index together;  ///< in a work group
+  Index columns;   ///< blocks in a row
+  Index y_stride;  ///< between columns of Y
+};
+
+/// Has it do so, for the columns of fields from `first_column` on, one a channel. The program is in use, its
+/// own uniforms are set, and all it reads is bound.
+void dispatch_block_rows(const GlProgram& program, const BlockRows& rows, Index first_column);
+
 /// Document 000's compressed matrix on the device: BC1 blocks in a storage buffer, which the shader decodes
 /// itself (texture units of different vendors round differently, and the software driver is slow at it), and
 /// the entries that are kept apart.
