@@ -4,6 +4,7 @@
 #include "gpu/gl_program.hpp"
 #include "gpu/gl_timer.hpp"
 #include "gpu/texel_units.hpp"
+#include "gpu/texture_palettes.hpp"
 
 #include <memory>
 #include <string>
@@ -19,7 +20,7 @@ namespace radiosity {
 enum class RowStrategy { group, invocation };
 
 /// A context with what all operators on it share: compiled shaders, the buffers that fields pass through,
-/// texture units, a timer. Everything but open() is called with the context current.
+/// texture units, palettes of textures, a timer. Everything but open() is called with the context current.
 class GlDevice {
  public:
   static std::shared_ptr<GlDevice> open(const GlContextOptions& options = {});
@@ -28,6 +29,7 @@ class GlDevice {
   FieldBuffers& fields() { return fields_; }
   GlTimer& timer() { return timer_; }
   TexelUnits& texels() { return texels_; }
+  TexturePalettes& palettes() { return palettes_; }
   /// Compiled when it is asked for first.
   const GlProgram& program(const ShaderVariant& variant);
   /// Has it begin with what was asked of it, while the CPU goes on.
@@ -39,12 +41,13 @@ class GlDevice {
 
  private:
   explicit GlDevice(const std::shared_ptr<const GlContext>& context)
-      : context_(context), fields_(context), timer_(context), texels_(context) {}
+      : context_(context), fields_(context), timer_(context), texels_(context), palettes_(context) {}
 
   std::shared_ptr<const GlContext> context_;
   FieldBuffers fields_;
   GlTimer timer_;
   TexelUnits texels_;
+  TexturePalettes palettes_;
   std::vector<std::pair<ShaderVariant, std::unique_ptr<GlProgram>>> programs_;
 };
 

@@ -36,19 +36,6 @@ ShaderVariant shader_for(const ColourTexture& texture, RowStrategy strategy) {
   return variant;
 }
 
-/// The palettes of a logarithmic colour channel, as ColourTexture says, by second code and then by first.
-void append_palettes(const float* table, int largest, std::vector<float>& palettes) {
-  for (int second = 0; second <= largest; ++second)
-    for (int first = 0; first <= largest; ++first) {
-      const float A = table[first];
-      const float B = table[second];
-      const bool none = first == 0 && second == 0;
-      for (const float number : {first == 0 ? 0 : A * A * A, second == 0 ? 0 : B * B * B,
-                                 none ? 0 : A * A * B, none ? 0 : A * (B * B)})
-        palettes.push_back(number);
-    }
-}
-
 StoredRows rows_of_blocks(const std::shared_ptr<const GlContext>& context, const ColourTexture& texture) {
   const CurrentContext current(*context);
   const Index row_bytes = texture.block_columns() * static_cast<Index>(sizeof(Bc1Block));
@@ -103,7 +90,8 @@ TextureOnDevice::TextureOnDevice(const std::shared_ptr<GlDevice>& device_of_text
       tables_(empty_tables(device_of_texture->context())) {
   const CurrentContext current(*device().context());
   upload_tables(texture);
-  if (strategy == RowStrategy::invocation && texture.curve().logarithmic) upload_palettes(texture);
+  if (strategy == RowStrategy::invocation && texture.curve().logarithmic)
+    palettes_ = device().palettes().of(texture);
   program_ = &device().program(shader_for(texture, strategy));
 }
 
@@ -116,24 +104,14 @@ void TextureOnDevice::upload_tables(const ColourTexture& texture) {
   tables_.write(0, sizeof numbers, numbers.data());
 }
 
-void TextureOnDevice::upload_palettes(const ColourTexture& texture) {
-  std::vector<float> palettes;
-  for (int channel = 0; channel < texture.channels(); ++channel) {
-    const int colour = texture.colour_channel(channel);
-    append_palettes(texture.tables() + colour * texture_table, bc1_largest(colour), palettes);
-  }
-  palettes_.emplace(device().context(), palettes.size() * sizeof(float));
-  palettes_->write(0, palettes_->bytes(), palettes.data());
-}
-
 std::size_t TextureOnDevice::texel_bytes() const {
-  return tables_.bytes() + (palettes_ ? palettes_->bytes() : 0) + blocks_.bytes();
+  return tables_.bytes() + (palettes_ != nullptr ? palettes_->bytes() : 0) + blocks_.bytes();
 }
 
 void TextureOnDevice::dispatch_texels(Index columns) const {
   if (strategy() == RowStrategy::invocation)
     device().texels().show_bound(field_unit, Texel::four_floats, FieldBuffers::x_binding);
-  if (palettes_) device().texels().show(palettes_unit, Texel::four_floats, *palettes_);
+  if (palettes_ != nullptr) device().texels().show(palettes_unit, Texel::four_floats, *palettes_);
   for (const StoredRows::Part& part : blocks_.parts())
     for (Index first = 0; first < columns; first += channels()) dispatch_part(part, first);
 }

@@ -6,7 +6,6 @@
 #include "kernels/exact_rows.hpp"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace radiosity {
@@ -49,14 +48,13 @@ class TextureOnDevice final : public TexelsOnDevice {
   TextureOnDevice(const std::shared_ptr<GlDevice>& device, const ColourTexture& texture,
                   const KeptApart& kept_apart, RowStrategy strategy);
   void upload_tables(const ColourTexture& texture);
-  void upload_palettes(const ColourTexture& texture);
   void dispatch_part(const StoredRows::Part& part, Index first_column) const;
 
   Index block_columns_;
   const GlProgram* program_ = nullptr;  ///< the device's
   StoredRows blocks_;                   ///< a row for four of the matrix
   GlBuffer tables_;  ///< of ColourTexture, and the part that each channel's scale is of scale()
-  std::optional<GlBuffer> palettes_;  ///< of logarithmic textures, read as texels
+  std::shared_ptr<const GlBuffer> palettes_;  ///< of logarithmic textures, read as texels
 };
 
 }  // namespace radiosity
