@@ -1,14 +1,11 @@
 #include "frame/instant_radiosity.hpp"
 
 #include "foundation/error.hpp"
-#include "foundation/parallel.hpp"
 #include "frame/direct_light.hpp"
 #include "frame/patch_colour.hpp"
-#include "frame/virtual_lights.hpp"
-#include "render/camera_rays.hpp"
+#include "frame/pixel_loop.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <numbers>
 #include <utility>
 
@@ -60,26 +57,16 @@ InstantRadiosityFrame instant_radiosity(const PatchMesh& mesh, const PatchRays& 
                                         const std::vector<FrameLight>& lights, const Camera& camera,
                                         const InstantRadiosityOptions& options, Monitor& monitor) {
   check(mesh, options);
-  const CameraRays camera_rays(camera, options.width, options.height);
   const DirectLight direct(mesh, rays, lights);
-  const VirtualLighting indirect(mesh, rays, virtual_lights(mesh, rays, lights, options.paths, options.seed),
-                                 options.closest);
-  InstantRadiosityFrame frame{{options.width, options.height, {}}, indirect.size()};
-  frame.picture.pixels.resize(3 * static_cast<std::size_t>(options.width) *
-                              static_cast<std::size_t>(options.height));
-  std::atomic<int> done{0};
-  parallel_for(static_cast<std::size_t>(options.height), [&](std::size_t row) {
-    const auto y = static_cast<int>(row);
-    for (int x = 0; x < options.width; ++x) {
-      const PatchHit at = rays.first_front(camera_rays.origin(), camera_rays.direction(x + 0.5, y + 0.5));
-      if (at.missed()) continue;
-      const Color radiance = colour_of(mesh.reflectance, at.patch) / std::numbers::pi *
-                             (direct.irradiance(at) + indirect.irradiance(at));
-      for (int c = 0; c < 3; ++c) frame.picture.pixel(x, y)[c] = static_cast<float>(radiance[c]);
-    }
-    monitor.checkpoint("instant radiosity", static_cast<double>(++done) / options.height);
-  });
-  return frame;
+  const VirtualLighting indirect(
+      mesh, rays, virtual_lights(mesh, rays, lights, options.paths, options.seed, options.reflections),
+      options.closest);
+  Picture picture = draw_pixels(rays, camera, options.width, options.height, "instant radiosity", monitor,
+                                [&](const PatchHit& at) -> Color {
+                                  return colour_of(mesh.reflectance, at.patch) / std::numbers::pi *
+                                         (direct.irradiance(at) + indirect.irradiance(at));
+                                });
+  return {std::move(picture), indirect.size()};
 }
 
 }  // namespace radiosity

@@ -2,6 +2,7 @@
 
 #include "foundation/monitor.hpp"
 #include "frame/frame_light.hpp"
+#include "frame/virtual_lights.hpp"
 #include "render/patch_rays.hpp"
 #include "render/picture.hpp"
 
@@ -17,6 +18,7 @@ struct InstantRadiosityOptions {
   int paths = 64;      ///< from each light
   double closest = 0;  ///< virtual lights nearer than this light as from there, scene units
   std::uint64_t seed = 1;
+  int reflections = all_reflections;  ///< at most, of each path
 };
 
 struct InstantRadiosityFrame {

@@ -25,8 +25,9 @@ Vector3 direction_in_cap(const Vector3& axis, double end_cosine, int k, int coun
 
 class LightTracer {
  public:
-  LightTracer(const PatchMesh& mesh, const PatchRays& rays, const std::vector<FrameLight>& lights)
-      : mesh_(mesh), rays_(rays), direct_(mesh, rays, lights) {}
+  LightTracer(const PatchMesh& mesh, const PatchRays& rays, const std::vector<FrameLight>& lights,
+              int reflections)
+      : mesh_(mesh), rays_(rays), direct_(mesh, rays, lights), reflections_(reflections) {}
 
   void trace(const FrameLight& light, int paths, RandomStream& random,
              std::vector<VirtualLight>& into) const {
@@ -50,9 +51,10 @@ class LightTracer {
     // Backs, which such a ray looks through, stop light.
     if (at.missed() || !direct_.visible(at, light.position)) return;
     Color throughput = Color::Ones();
-    for (;;) {
+    for (int reflection = 1;; ++reflection) {
       throughput *= colour_of(mesh_.reflectance, at.patch);
       into.push_back({at, flux * throughput});
+      if (reflection == reflections_) return;
       const double survival = std::min(1.0, throughput.maxCoeff());
       if (random.uniform() >= survival) return;
       throughput /= survival;
@@ -66,18 +68,21 @@ class LightTracer {
   const PatchMesh& mesh_;
   const PatchRays& rays_;
   DirectLight direct_;
+  int reflections_;
 };
 
 }  // namespace
 
 std::vector<VirtualLight> virtual_lights(const PatchMesh& mesh, const PatchRays& rays,
-                                         const std::vector<FrameLight>& lights, int paths,
-                                         std::uint64_t seed) {
+                                         const std::vector<FrameLight>& lights, int paths, std::uint64_t seed,
+                                         int reflections) {
+  if (reflections < 1)
+    fail<UsageError>("virtual lights of {} reflections do not exist; take 1 or more", reflections);
   if (paths < 1) fail<UsageError>("{} paths from a light are too few; at least one is needed", paths);
   if (mesh.patch_count() > 0 && !(mesh.reflectance.maxCoeff() < 1))
     fail<UsageError>("a patch has reflectance {}: paths between such patches need not end; limit it below 1",
                      mesh.reflectance.maxCoeff());
-  const LightTracer tracer(mesh, rays, lights);
+  const LightTracer tracer(mesh, rays, lights, reflections);
   std::vector<VirtualLight> found;
   for (std::size_t l = 0; l < lights.size(); ++l) {
     RandomStream random(seed, l);

@@ -5,6 +5,7 @@
 #include "frame/direct_light.hpp"
 #include "frame/frame_renderer.hpp"
 #include "frame/instant_radiosity.hpp"
+#include "frame/light_propagation.hpp"
 #include "gpu/gl_operators.hpp"
 #include "render/camera_rays.hpp"
 #include "scene/built_in.hpp"
@@ -122,6 +123,24 @@ class Comparer {
     }
   }
 
+  /// With what the document compares its method (section 4.3).
+  void propagate_light() {
+    const PatchRays rays(*result_.mesh);
+    LightPropagation propagation(*result_.mesh, rays,
+                                 {.width = options_.width,
+                                  .height = options_.height,
+                                  .cells = options_.cells,
+                                  .steps = options_.steps,
+                                  .seed = options_.seed});
+    Picture picture;
+    const Timing timing =
+        time_by_clock(options_.seconds, [&] { picture = propagation.draw(lights_, camera_, monitor_); });
+    const auto& cells = propagation.volume().cells();
+    add("light propagation volumes",
+        fmt::format("{} x {} x {} cells, {} steps", cells[0], cells[1], cells[2], options_.steps), on_cpu_,
+        timing.median, std::move(picture));
+  }
+
   /// As many paths as have the error of the first frame, at most as many as the reference.
   void trace_to_equal_error() {
     const double wanted = mean_of_channels(result_.frames.front().shadowed.rms);
@@ -145,9 +164,11 @@ class Comparer {
     const double a_path = (seconds_of_instant_radiosity(rays, many_paths) - one) / (many_paths - 1);
     const double further = a_path > 0 ? (result_.frames.front().seconds - one) / a_path : 0;
     const int paths = static_cast<int>(std::clamp(std::round(1 + further), 1.0, most_paths));
-    add_instant_radiosity("instant radiosity", rays, paths);
-    add_instant_radiosity(fmt::format("instant radiosity, {} times more", options_.times_more), rays,
-                          options_.times_more * paths);
+    const int many = options_.times_more * paths;
+    add_instant_radiosity("instant radiosity", rays, paths, all_reflections);
+    add_instant_radiosity(fmt::format("instant radiosity, {} times more", options_.times_more), rays, many,
+                          all_reflections);
+    add_instant_radiosity("its first reflection alone", rays, many, 1);
   }
 
   FrameComparison result() && { return std::move(result_); }
@@ -158,20 +179,20 @@ class Comparer {
                        monitor_);
   }
 
-  InstantRadiosityFrame instant(const PatchRays& rays, int paths) {
-    return instant_radiosity(*result_.mesh, rays, lights_, camera_,
-                             {options_.width, options_.height, paths, options_.closest, options_.seed},
-                             monitor_);
+  InstantRadiosityFrame instant(const PatchRays& rays, int paths, int reflections) {
+    return instant_radiosity(
+        *result_.mesh, rays, lights_, camera_,
+        {options_.width, options_.height, paths, options_.closest, options_.seed, reflections}, monitor_);
   }
 
   double seconds_of_instant_radiosity(const PatchRays& rays, int paths) {
     constexpr double no_longer = 0;  // than three times
-    return time_by_clock(no_longer, [&] { instant(rays, paths); }).median;
+    return time_by_clock(no_longer, [&] { instant(rays, paths, all_reflections); }).median;
   }
 
-  void add_instant_radiosity(const std::string& name, const PatchRays& rays, int paths) {
+  void add_instant_radiosity(const std::string& name, const PatchRays& rays, int paths, int reflections) {
     const Stopwatch watch;
-    const InstantRadiosityFrame frame = instant(rays, paths);
+    const InstantRadiosityFrame frame = instant(rays, paths, reflections);
     const double seconds = watch.seconds();
     add(name, fmt::format("{} from the light, virtual lights: {}", paths_text(paths), frame.virtual_lights),
         on_cpu_, seconds, frame.picture);
@@ -214,6 +235,7 @@ FrameComparison measure_frame_comparison(const std::shared_ptr<GlDevice>& device
   Comparer comparer(device, options, operators, monitor);
   comparer.trace_reference();
   comparer.draw_by_radiosity();
+  comparer.propagate_light();
   comparer.trace_to_equal_error();
   comparer.light_in_equal_time();
   return std::move(comparer).result();

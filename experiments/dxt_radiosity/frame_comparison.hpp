@@ -29,6 +29,8 @@ struct FrameComparisonOptions {
   int reference_paths = 96;  ///< from each pixel
   double closest = 0.5;      ///< of instant radiosity, m
   int times_more = 64;       ///< paths of its second frame for one of the first
+  int cells = 32;            ///< of light propagation volumes, along the longest edge of the scene
+  int steps = 64;            ///< of theirs, from cell to cell
   double seconds = 0.5;      ///< for timing each method's frames
   std::uint64_t seed = 1;
 };
@@ -62,8 +64,9 @@ struct FrameComparison {
   double equal_error_seconds = 0;
 };
 
-/// The first frame is that of the document's method; the last ones are path tracing to its error, and instant
-/// radiosity in its time and with many more virtual lights. Throws UsageError for a column that is not seen.
+/// The first frame is that of the document's method; after those of radiosity come light propagation volumes,
+/// path tracing to the first one's error, and instant radiosity in its time and with many more virtual
+/// lights. Throws UsageError for a column that is not seen.
 FrameComparison measure_frame_comparison(const std::shared_ptr<GlDevice>& device,
                                          const FrameComparisonOptions& options,
                                          const OperatorRegistry& operators, Monitor& monitor);

@@ -178,6 +178,8 @@ Json comparison_json(const FrameComparison& comparison, const FrameComparisonOpt
           {"width", options.width},
           {"height", options.height},
           {"closest", options.closest},
+          {"cells", options.cells},
+          {"steps", options.steps},
           {"shadowed_part", comparison.shadowed_part},
           {"reference",
            {{"paths", options.reference_paths},
@@ -246,10 +248,12 @@ ReportSection frame_comparison_section(const FrameComparison& comparison,
   section.blocks.emplace_back(ReportText{fmt::format(
       "The document shows a frame by its method, naive radiosity, light propagation volumes and path tracing "
       "(sections 4.2 and 4.3, Figures 13 and 14), and judges by eye. Here are numbers, on {} patches of the "
-      "built-in colonnade in place of its Sponza, with a lamp that shines onto red cloth. In the place of "
-      "light "
-      "propagation volumes stands instant radiosity on the CPU: shadow-tested virtual lights of all bounces, "
-      "1/d² clamped at {:g} m, which loses light in corners and keeps bright spots away.",
+      "built-in colonnade in place of its Sponza, with a lamp that shines onto red cloth. Light propagation "
+      "volumes and instant radiosity run on the CPU: the former with one grid and one reflection, as they "
+      "were "
+      "published, so that the first reflection alone is what they could reach; the latter with shadow-tested "
+      "virtual lights of all bounces, 1/d² clamped at {:g} m, which "
+      "loses light in corners and keeps bright spots away.",
       comparison.mesh->patch_count(), options.closest)});
   section.blocks.emplace_back(frames_table(comparison, options, command));
   section.blocks.emplace_back(ReportText{timing_finding(comparison)});

@@ -76,6 +76,8 @@ class FrameComparisons : public DeviceTest {
     options.bands = 6;
     options.reference_paths = 32;
     options.times_more = 16;
+    options.cells = 12;
+    options.steps = 24;
     options.seconds = 0;
     return options;
   }
@@ -85,7 +87,7 @@ class FrameComparisons : public DeviceTest {
 
 TEST_F(FrameComparisons, TellTheMethodsApart) {
   const FrameComparison comparison = measure_frame_comparison(device(), tiny(), cpu_operators(), monitor_);
-  ASSERT_EQ(comparison.frames.size(), 7U);
+  ASSERT_EQ(comparison.frames.size(), 9U);
   const auto frame = [&](const std::string& name) -> const ComparedFrame& {
     return *std::find_if(comparison.frames.begin(), comparison.frames.end(),
                          [&](const ComparedFrame& own) { return own.name == name; });
@@ -100,6 +102,9 @@ TEST_F(FrameComparisons, TellTheMethodsApart) {
   EXPECT_LT(frame("path tracing").whole.mean[1], 0.04);
   EXPECT_LT(frame("instant radiosity, 16 times more").shadowed.rms[1],
             0.7 * frame("instant radiosity").shadowed.rms[1]);
+  EXPECT_LT(frame("its first reflection alone").whole.mean[1],
+            frame("instant radiosity, 16 times more").whole.mean[1]);
+  EXPECT_LT(frame("light propagation volumes").shadowed.mean[1], 0) << "has one reflection";
   EXPECT_GT(comparison.shadowed_part, 0.3);
   EXPECT_LT(comparison.shadowed_part, 1);
 }
@@ -117,7 +122,7 @@ TEST_F(FrameComparisons, WriteFiguresNumbersAndASection) {
   EXPECT_EQ(text.find("software renderer") != std::string::npos, device()->context()->software());
   std::ifstream file(folder / "frame_comparison.json");
   const auto json = nlohmann::json::parse(file);
-  EXPECT_EQ(json.at("frames").size(), 7U);
+  EXPECT_EQ(json.at("frames").size(), 9U);
   EXPECT_EQ(json.at("frames").at(0).at("profile").size(), 6U);
   EXPECT_EQ(json.at("heights").size(), 6U);
   EXPECT_TRUE(std::filesystem::exists(folder / "frame_comparison.png"));
