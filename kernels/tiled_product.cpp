@@ -85,8 +85,8 @@ struct StoredSource {
   }
 };
 
-/// ... or decoded, into a panel that stays in the first cache or, BC4 blocks of which no entry is kept apart,
-/// in registers.
+/// ... or decoded, into a panel that stays in the first cache or, where no entry of a tile is kept apart and
+/// the product can, in registers.
 struct QuantizedSource {
   using Entry = float;
   static constexpr Index panel_entries = QuantizedTiles::tile_entries;
@@ -95,12 +95,14 @@ struct QuantizedSource {
   TileDecoder decoder;
   TileProducts<float> products;
   TileProducts<Bc4Block> block_products;
+  TileProducts<Half> half_products;
 
   QuantizedSource(const QuantizedTiles& tiles, InstructionSet instructions)
       : K(tiles),
         decoder(tile_decoder(instructions, K.format())),
         products(tile_products<float>(instructions)) {
     if (K.format().code == EntryCode::bc4) block_products = bc4_products(instructions, K.format().curve);
+    if (K.format().code == EntryCode::half) half_products = tile_products<Half>(instructions);
   }
 
   bool whole_diagonal() const { return K.whole_diagonal(); }
@@ -108,9 +110,7 @@ struct QuantizedSource {
   /// Null: the tile is decoded as it is multiplied, which is done once for three columns.
   const Entry* read(Index tile, Index columns, Entry* panel) const {
     const std::size_t end = K.exact_begin(tile + 1);
-    if (block_products.both[0] != nullptr && columns <= TileProducts<Bc4Block>::most_columns &&
-        K.exact_begin(tile) == end)
-      return nullptr;
+    if (in_registers(columns) && K.exact_begin(tile) == end) return nullptr;
     if (decoder == nullptr)
       std::fill(panel, panel + panel_entries, 0.0F);
     else
@@ -122,15 +122,28 @@ struct QuantizedSource {
   }
 
   void multiply(Index tile, Sums sums, Index columns, bool, TileTask<Entry>& task) const {
-    if (task.entries != nullptr) {
+    if (task.entries != nullptr)
       product_of(products, sums, columns)(task);
-      return;
-    }
-    auto blocks = same_fields<Bc4Block>(task);
-    blocks.entries = reinterpret_cast<const Bc4Block*>(K.record(tile));
-    blocks.prefetch = reinterpret_cast<const char*>(K.record(tile) + tile_bytes_ahead);
-    blocks.curve = &K.format().curve;
-    product_of(block_products, sums, columns)(blocks);
+    else if (K.format().code == EntryCode::half)
+      multiply_record(half_products, tile, sums, columns, task);
+    else
+      multiply_record(block_products, tile, sums, columns, task);
+  }
+
+ private:
+  bool in_registers(Index columns) const {
+    return columns <= TileProducts<Entry>::most_columns &&
+           (block_products.both[0] != nullptr || half_products.both[0] != nullptr);
+  }
+
+  template <typename Stored>
+  void multiply_record(const TileProducts<Stored>& functions, Index tile, Sums sums, Index columns,
+                       const TileTask<Entry>& task) const {
+    auto stored = same_fields<Stored>(task);
+    stored.entries = reinterpret_cast<const Stored*>(K.record(tile));
+    stored.prefetch = reinterpret_cast<const char*>(K.record(tile) + tile_bytes_ahead);
+    stored.curve = &K.format().curve;
+    product_of(functions, sums, columns)(stored);
   }
 };
 
