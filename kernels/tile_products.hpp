@@ -26,22 +26,10 @@ struct Multiplier<double> {
 /// which X has one scale.
 constexpr int tiles_together = 4;
 
-/// At most 64 rows of 64 entries of a matrix and the pieces of X and Y that they touch. Where Scalar is
-/// Bc4Block, the entries are those of 16 x 16 blocks, which follow each other by rows. X and Y are in blocks
-/// of 64 rows, one column after the other: entry (i, c) of a block is at 64 c + i. All are aligned to 64
-/// bytes.
-template <typename Scalar>
-struct TileTask {
-  using Number = typename Multiplier<Scalar>::Type;
-
-  const Scalar* entries = nullptr;
-  std::ptrdiff_t stride = 64;        ///< numbers from one row to the next; not for blocks
-  int rows = 64;                     ///< 64 for blocks
-  const TileCurve* curve = nullptr;  ///< for blocks: what their codes stand for
-  const char* prefetch =
-      nullptr;  ///< what will be read soon, as much as this task reads; null: do not fetch ahead
-  bool prefetch_every_line = true;  ///< else one line a row, where entries follow each other in memory
-
+/// The pieces of X and Y that a tile touches, in blocks of 64 rows, one column after the other: entry (i, c)
+/// of a block is at 64 c + i. All are aligned to 64 bytes.
+template <typename Number>
+struct TileFields {
   // y_rows += entries x_columns: tasks with the same rows form runs that add up in `row_lanes`.
   const Number* x_columns = nullptr;
   const double* x_columns_scale =
@@ -55,6 +43,24 @@ struct TileTask {
   const Number* x_rows = nullptr;
   const double* x_rows_scale = nullptr;
   double* y_columns = nullptr;
+};
+
+/// At most 64 rows of 64 entries of a matrix, aligned to 64 bytes. Where Scalar is Bc4Block, the entries are
+/// those of 16 x 16 blocks, which follow each other by rows.
+template <typename Scalar>
+struct TileTask : TileFields<typename Multiplier<Scalar>::Type> {
+  using Fields = TileFields<typename Multiplier<Scalar>::Type>;
+
+  TileTask() = default;
+  explicit TileTask(const Fields& fields) : Fields(fields) {}
+
+  const Scalar* entries = nullptr;
+  std::ptrdiff_t stride = 64;        ///< numbers from one row to the next; not for blocks
+  int rows = 64;                     ///< 64 for blocks
+  const TileCurve* curve = nullptr;  ///< for blocks: what their codes stand for
+  const char* prefetch =
+      nullptr;  ///< what will be read soon, as much as this task reads; null: do not fetch ahead
+  bool prefetch_every_line = true;  ///< else one line a row, where entries follow each other in memory
 };
 
 /// Functions for 1, 2 and 3 columns at [columns - 1]; more do not fit into the registers.

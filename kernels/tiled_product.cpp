@@ -3,24 +3,13 @@
 #include "kernels/partial_sums.hpp"
 #include "kernels/product_shapes.hpp"
 #include "kernels/products.hpp"
-#include "kernels/tile_decoders.hpp"
-#include "kernels/tile_products.hpp"
+#include "kernels/tile_sources.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 namespace radiosity {
 namespace {
-
-/// How far ahead of the arithmetic tiles and records are fetched into the second cache (the first is full of
-/// sums). Processors fetch ahead by themselves as long as they compute little for each line that they read,
-/// but not across pages: with one or two columns one line a row is asked for, a page ahead. Three columns
-/// keep them so busy that they fall behind: every line is asked for, at a distance at which more made no
-/// difference. On Zen 4 either case is up to 1.4 times slower with the other's rule. Beyond the last tile
-/// nothing of use is fetched.
-constexpr std::ptrdiff_t page_bytes = 4096;
-constexpr std::ptrdiff_t tile_bytes_ahead = 65536;
 
 /// Cuts the tile rows into chunks of about equal numbers of tiles; chunk k is the tile rows result[k] ...
 /// result[k + 1] - 1. Depends on the matrix only, never on threads: it decides the order of the sums.
@@ -35,117 +24,6 @@ std::vector<Index> split_tile_rows(const TileDirectory& K) {
   begin.push_back(K.tile_rows());
   return begin;
 }
-
-/// Which sums a tile adds to.
-enum class Sums { both, rows, columns };
-
-template <typename Scalar>
-typename TileProducts<Scalar>::Function product_of(const TileProducts<Scalar>& products, Sums sums,
-                                                   Index columns) {
-  const auto& functions = sums == Sums::both   ? products.both
-                          : sums == Sums::rows ? products.to_rows
-                                               : products.to_columns;
-  return functions[columns - 1];
-}
-
-/// The same pieces of X and Y for entries of another kind.
-template <typename To, typename From>
-TileTask<To> same_fields(const TileTask<From>& task) {
-  TileTask<To> other;
-  other.x_columns = task.x_columns;
-  other.x_columns_scale = task.x_columns_scale;
-  other.row_lanes = task.row_lanes;
-  other.first = task.first;
-  other.last = task.last;
-  other.y_rows = task.y_rows;
-  other.x_rows = task.x_rows;
-  other.x_rows_scale = task.x_rows_scale;
-  other.y_columns = task.y_columns;
-  return other;
-}
-
-/// Where the entries of a tile are: in memory as they are multiplied.
-template <typename Scalar>
-struct StoredSource {
-  using Entry = Scalar;
-  static constexpr Index panel_entries = 0;
-
-  const SymmetricTiles<Scalar>& K;
-  TileProducts<Scalar> products;
-
-  static bool whole_diagonal() { return true; }  ///< whether a tile on the diagonal keeps both halves
-  const Entry* read(Index tile, Index, Entry*) const { return K.tile_data(tile); }
-  void multiply(Index, Sums sums, Index columns, bool first_time, TileTask<Entry>& task) const {
-    if (first_time) {
-      task.prefetch_every_line = columns >= 3;
-      task.prefetch =
-          reinterpret_cast<const char*>(task.entries) + (columns >= 3 ? tile_bytes_ahead : page_bytes);
-    }
-    product_of(products, sums, columns)(task);
-  }
-};
-
-/// ... or decoded, into a panel that stays in the first cache or, where no entry of a tile is kept apart and
-/// the product can, in registers.
-struct QuantizedSource {
-  using Entry = float;
-  static constexpr Index panel_entries = QuantizedTiles::tile_entries;
-
-  const QuantizedTiles& K;
-  TileDecoder decoder;
-  TileProducts<float> products;
-  TileProducts<Bc4Block> block_products;
-  TileProducts<Half> half_products;
-
-  QuantizedSource(const QuantizedTiles& tiles, InstructionSet instructions)
-      : K(tiles),
-        decoder(tile_decoder(instructions, K.format())),
-        products(tile_products<float>(instructions)) {
-    if (K.format().code == EntryCode::bc4) block_products = bc4_products(instructions, K.format().curve);
-    if (K.format().code == EntryCode::half) half_products = tile_products<Half>(instructions);
-  }
-
-  bool whole_diagonal() const { return K.whole_diagonal(); }
-
-  /// Null: the tile is decoded as it is multiplied, which is done once for three columns.
-  const Entry* read(Index tile, Index columns, Entry* panel) const {
-    const std::size_t end = K.exact_begin(tile + 1);
-    if (in_registers(columns) && K.exact_begin(tile) == end) return nullptr;
-    if (decoder == nullptr)
-      std::fill(panel, panel + panel_entries, 0.0F);
-    else
-      decoder(K.record(tile), K.record(tile) + tile_bytes_ahead, K.format().curve, panel);
-    const std::uint16_t* position = K.exact_position().data();
-    const float* value = K.exact_value().data();
-    for (std::size_t k = K.exact_begin(tile); k < end; ++k) panel[position[k]] = value[k];
-    return panel;
-  }
-
-  void multiply(Index tile, Sums sums, Index columns, bool, TileTask<Entry>& task) const {
-    if (task.entries != nullptr)
-      product_of(products, sums, columns)(task);
-    else if (K.format().code == EntryCode::half)
-      multiply_record(half_products, tile, sums, columns, task);
-    else
-      multiply_record(block_products, tile, sums, columns, task);
-  }
-
- private:
-  bool in_registers(Index columns) const {
-    return columns <= TileProducts<Entry>::most_columns &&
-           (block_products.both[0] != nullptr || half_products.both[0] != nullptr);
-  }
-
-  template <typename Stored>
-  void multiply_record(const TileProducts<Stored>& functions, Index tile, Sums sums, Index columns,
-                       const TileTask<Entry>& task) const {
-    auto stored = same_fields<Stored>(task);
-    stored.entries = reinterpret_cast<const Stored*>(K.record(tile));
-    stored.prefetch = reinterpret_cast<const char*>(K.record(tile) + tile_bytes_ahead);
-    stored.curve = &K.format().curve;
-    product_of(functions, sums, columns)(stored);
-  }
-};
 
 enum class Direction { forward, transposed };  ///< K X or K' X: the same for a symmetric K
 
@@ -200,9 +78,9 @@ class TileSweep {
     }
   }
 
-  Sums sums_of(bool on_diagonal) const {
-    if (!directory_.symmetric()) return direction_ == Direction::forward ? Sums::rows : Sums::columns;
-    return on_diagonal && source_.whole_diagonal() ? Sums::rows : Sums::both;
+  TileSums sums_of(bool on_diagonal) const {
+    if (!directory_.symmetric()) return direction_ == Direction::forward ? TileSums::rows : TileSums::columns;
+    return on_diagonal && source_.whole_diagonal() ? TileSums::rows : TileSums::both;
   }
 
   const TileDirectory& directory_;
@@ -241,7 +119,7 @@ void multiply_tiles(const TileDirectory& directory, const Source& source, Direct
 template <typename Scalar>
 void multiply_stored(const SymmetricTiles<Scalar>& K, const ConstFieldRef& X, FieldRef Y,
                      InstructionSet instructions) {
-  const StoredSource<Scalar> source{K, tile_products<Scalar>(instructions)};
+  const StoredTileSource<Scalar> source{K, tile_products<Scalar>(instructions)};
   multiply_tiles(K.directory(), source, Direction::forward, K.scale(), X, Y);
 }
 
@@ -261,12 +139,12 @@ void multiply(const SymmetricTiles<Half>& K, const ConstFieldRef& X, FieldRef Y,
 }
 
 void multiply(const QuantizedTiles& K, const ConstFieldRef& X, FieldRef Y, InstructionSet instructions) {
-  multiply_tiles(K.directory(), QuantizedSource(K, instructions), Direction::forward, K.scale(), X, Y);
+  multiply_tiles(K.directory(), QuantizedTileSource(K, instructions), Direction::forward, K.scale(), X, Y);
 }
 
 void multiply_transposed(const QuantizedTiles& M, const ConstFieldRef& X, FieldRef Y,
                          InstructionSet instructions) {
-  multiply_tiles(M.directory(), QuantizedSource(M, instructions), Direction::transposed, M.scale(), X, Y);
+  multiply_tiles(M.directory(), QuantizedTileSource(M, instructions), Direction::transposed, M.scale(), X, Y);
 }
 
 }  // namespace radiosity
