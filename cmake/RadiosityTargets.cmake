@@ -10,12 +10,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
 endif()
 if(RADIOSITY_SANITIZE)
   # Checks of every dereference cost half the compilation; a null pointer ends in a report of the address sanitizer anyway, and
-  # only the folders that cast pointers to numbers can misalign them. Of tests only the calls into the libraries are of
-  # interest. GCC's flow analysis does not see through the instrumentation.
+  # only the folders that cast pointers to numbers can misalign them. Of tests and the experiments' drivers only the calls
+  # into the libraries are looked at for undefined arithmetic. GCC's flow analysis does not see through the instrumentation.
   target_compile_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE} -fno-omit-frame-pointer
                          -fno-sanitize-recover=all -fno-sanitize=null,object-size,vptr -Wno-maybe-uninitialized
                          $<$<NOT:$<BOOL:$<TARGET_PROPERTY:RADIOSITY_CASTS_POINTERS>>>:-fno-sanitize=alignment>
-                         $<$<BOOL:$<TARGET_PROPERTY:RADIOSITY_IS_TEST>>:-fno-sanitize=undefined>)
+                         $<$<BOOL:$<TARGET_PROPERTY:RADIOSITY_ADDRESSES_ONLY>>:-fno-sanitize=undefined>)
   # The sanitizer calls dlopen in the program's place: modules are found through RPATH, which counts for every caller.
   target_link_options(radiosity_options INTERFACE -fsanitize=${RADIOSITY_SANITIZE} LINKER:--disable-new-dtags)
 endif()
@@ -30,6 +30,9 @@ function(radiosity_library name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   if(name MATCHES "^(foundation|kernels|compression|gpu)$")
     set_target_properties(${target} PROPERTIES RADIOSITY_CASTS_POINTERS ON)
+  endif()
+  if(name STREQUAL experiments)
+    set_target_properties(${target} PROPERTIES RADIOSITY_ADDRESSES_ONLY ON)
   endif()
   if(CMAKE_BUILD_TYPE STREQUAL Release AND name MATCHES "^(scene|solvers|experiments)$")
     target_compile_options(${target} PRIVATE -O2)  # few loops of their own: -O3 costs a third of the compilation
@@ -56,7 +59,7 @@ function(radiosity_test name)
   set(target radiosity_${name}_tests)
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE ${arg_UNPARSED_ARGUMENTS} GTest::gtest_main radiosity_options)
-  set_target_properties(${target} PROPERTIES RADIOSITY_IS_TEST ON)
+  set_target_properties(${target} PROPERTIES RADIOSITY_ADDRESSES_ONLY ON)
   if(RADIOSITY_SANITIZE)  # a test takes longer to compile than to run
     target_compile_options(${target} PRIVATE -O0)
   elseif(CMAKE_BUILD_TYPE STREQUAL Release)
