@@ -1,7 +1,10 @@
 #include "frame/light_volume.hpp"
 
 #include "foundation/error.hpp"
+#include "foundation/memory.hpp"
 #include "foundation/parallel.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +80,19 @@ double flux_of(const Eigen::Vector4d& coefficients) {
   return coefficients[0] * std::sqrt(4 * std::numbers::pi);
 }
 
+/// With which what a cell sends to the faces of its neighbours is the flux that it has.
+Eigen::Array3d scale_of_flux(const Eigen::Matrix<double, 4, 3>& intensity) {
+  Eigen::Array3d sent = Eigen::Array3d::Zero();
+  for (const auto& faces : seen_faces())
+    for (const SeenFace& face : faces)
+      if (face.solid_angle > 0)
+        sent += face.solid_angle * (intensity.transpose() * face.direction).array().max(0.0);
+  Eigen::Array3d scale = Eigen::Array3d::Zero();
+  for (int c = 0; c < 3; ++c)
+    if (sent[c] > 0) scale[c] = std::max(0.0, flux_of(intensity.col(c))) / sent[c];
+  return scale;
+}
+
 std::array<int, 3> neighbour(std::array<int, 3> cell, int side) {
   cell[static_cast<std::size_t>(side / 2)] += side % 2 == 0 ? -1 : 1;
   return cell;
@@ -103,6 +119,10 @@ LightVolume::LightVolume(const Eigen::AlignedBox3d& box, int cells) {
     count *= static_cast<std::size_t>(cells_[static_cast<std::size_t>(axis)]);
     corners *= static_cast<std::size_t>(cells_[static_cast<std::size_t>(axis)]) + 1;
   }
+  const std::size_t of_cell = 3 * sizeof(Intensity) + sizeof(Eigen::Array3d);
+  require_available_memory(
+      fmt::format("a light propagation volume of {} x {} x {} cells", cells_[0], cells_[1], cells_[2]),
+      static_cast<double>(count * of_cell + corners * sizeof(Eigen::Vector4d)), "take fewer cells");
   covered_.assign(corners, Eigen::Vector4d::Zero());
   travelling_.assign(count, Intensity::Zero());
   passed_.assign(count, Intensity::Zero());
@@ -145,18 +165,6 @@ void LightVolume::darken() {
   std::fill(passed_.begin(), passed_.end(), Intensity::Zero());
 }
 
-Eigen::Array3d LightVolume::scale_of_flux(const Intensity& intensity) const {
-  Eigen::Array3d sent = Eigen::Array3d::Zero();
-  for (const auto& faces : seen_faces())
-    for (const SeenFace& face : faces)
-      if (face.solid_angle > 0)
-        sent += face.solid_angle * (intensity.transpose() * face.direction).array().max(0.0);
-  Eigen::Array3d scale = Eigen::Array3d::Zero();
-  for (int c = 0; c < 3; ++c)
-    if (sent[c] > 0) scale[c] = std::max(0.0, flux_of(intensity.col(c))) / sent[c];
-  return scale;
-}
-
 double LightVolume::passed(const std::array<int, 3>& cell, int side, const Eigen::Vector4d& direction) const {
   const auto axis = static_cast<std::size_t>(side / 2);
   std::array<int, 3> at = cell;
@@ -193,12 +201,16 @@ LightVolume::Intensity LightVolume::gathered(const std::array<int, 3>& cell,
 }
 
 void LightVolume::propagate(int steps) {
+  const auto layers = static_cast<std::size_t>(cells_[2]);
+  const std::size_t of_layer = travelling_.size() / layers;
   std::vector<Eigen::Array3d> scale(travelling_.size());
   std::vector<Intensity> next(travelling_.size());
   for (int step = 0; step < steps; ++step) {
-    for (std::size_t cell = 0; cell < travelling_.size(); ++cell)
-      scale[cell] = scale_of_flux(travelling_[cell]);
-    parallel_for(static_cast<std::size_t>(cells_[2]), [&](std::size_t layer) {
+    parallel_for(layers, [&](std::size_t layer) {
+      for (std::size_t cell = layer * of_layer; cell < (layer + 1) * of_layer; ++cell)
+        scale[cell] = scale_of_flux(travelling_[cell]);
+    });
+    parallel_for(layers, [&](std::size_t layer) {
       const auto z = static_cast<int>(layer);
       for (int y = 0; y < cells_[1]; ++y)
         for (int x = 0; x < cells_[0]; ++x) {

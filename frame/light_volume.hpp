@@ -60,7 +60,6 @@ class LightVolume {
   /// What surfaces in the face between a cell and its neighbour `side` leave of light in a direction.
   double passed(const std::array<int, 3>& cell, int side, const Eigen::Vector4d& direction) const;
   Intensity gathered(const std::array<int, 3>& cell, const std::vector<Eigen::Array3d>& scale) const;
-  Eigen::Array3d scale_of_flux(const Intensity& intensity) const;
 
   Vector3 low_;
   double cell_ = 1;
