@@ -55,36 +55,36 @@ vec4 palette(uint colours, uint colour) {
   return texelFetch(palettes, int(first_palette + pair.y * (colour == 1 ? 64 : 32) + pair.x));
 }
 
-void add_block(uint row, uint side, vec4 numbers[CHANNELS], uint indices) {
-  for (uint c = 0; c < CHANNELS; ++c) {
-    vec4 number = numbers[c];
-    for (uint r = 0; r < 4; ++r) {
-      uvec4 index = uvec4(indices) >> (uvec4(0, 2, 4, 6) + 8 * r);
-      bvec4 low = notEqual(index & 1u, uvec4(0));
-      bvec4 high = notEqual(index & 2u, uvec4(0));
-      sum[row * CHANNELS + c][r] +=
-          dot(part[2 * c + side],
-              mix(mix(number.xxxx, number.yyyy, low), mix(number.zzzz, number.wwww, low), high));
-    }
-  }
+vec4 palettes_ahead[CHANNELS];  // of the block that is added next
+
+void read_palettes(uint colours) {
+  for (uint c = 0; c < CHANNELS; ++c) palettes_ahead[c] = palette(colours, colour_of(c));
 }
 
-// All palettes first: a fetch is a call, around which every number in use goes to memory.
-void add_two(uint row, uvec4 two) {
-  vec4 left[CHANNELS];
-  vec4 right[CHANNELS];
-  for (uint c = 0; c < CHANNELS; ++c) {
-    left[c] = palette(two.x, colour_of(c));
-    right[c] = palette(two.z, colour_of(c));
+// What is asked of a texel's index serves all channels at once.
+void add_block(uint row, uint side, uint colours, uint indices, uint colours_ahead) {
+  vec4 number[CHANNELS] = palettes_ahead;
+  read_palettes(colours_ahead);
+  for (uint r = 0; r < 4; ++r) {
+    float texels[CHANNELS];
+    for (uint c = 0; c < CHANNELS; ++c) texels[c] = 0;
+    for (uint column = 0; column < 4; ++column) {
+      bool low = (indices & 1u << (8 * r + 2 * column)) != 0;
+      bool high = (indices & 2u << (8 * r + 2 * column)) != 0;
+      for (uint c = 0; c < CHANNELS; ++c) {
+        float below = low ? number[c].y : number[c].x;
+        float above = low ? number[c].w : number[c].z;
+        texels[c] += part[2 * c + side][column] * (high ? above : below);
+      }
+    }
+    for (uint c = 0; c < CHANNELS; ++c) sum[row * CHANNELS + c][r] += texels[c];
   }
-  add_block(row, 0, left, two.y);
-  add_block(row, 1, right, two.w);
 }
 #else
 
 // Steps lead up from the lower of the two colours, so that a texel of 0 adds exactly 0. How many thirds of a step each
 // texel is up, 0 to 3, is a number of two bits in the place of its index: sums need no selection.
-void add_block(uint row, uint side, uint colours, uint indices) {
+void add_block(uint row, uint side, uint colours, uint indices, uint colours_ahead) {
   const uint lower_bits = 0x55555555u;
   for (uint c = 0; c < CHANNELS; ++c) {
     ivec2 pair = ivec2(codes(colours, colour_of(c)));
@@ -100,15 +100,25 @@ void add_block(uint row, uint side, uint colours, uint indices) {
   }
 }
 
-void add_two(uint row, uvec4 two) {
-  add_block(row, 0, two.x, two.y);
-  add_block(row, 1, two.z, two.w);
-}
 #endif
 
+// A fetch takes longer than the sums of a row: blocks are fetched two rows before they are added, palettes one block.
+uvec4 two = uvec4(0);        // blocks of the row that is added next
+uvec4 two_ahead = uvec4(0);  // of the one after
+
+// Of one of the rows, or of the first ones at the next pair, if there is one.
+uvec4 two_blocks(uint row, uint pair) {
+  uint block_row = min(group_index() * ROWS + row % ROWS, part_block_rows - 1);
+  uint pairs = block_columns / 2;
+  return texelFetch(blocks, int(block_row * pairs + (row < ROWS ? pair : min(pair + 8, pairs - 1))));
+}
+
 void add_blocks(uint row, uint pair) {
-  uint block_row = min(group_index() * ROWS + row, part_block_rows - 1);
-  add_two(row, texelFetch(blocks, int(block_row * (block_columns / 2) + pair)));
+  uvec4 later = two_blocks(row + 2, pair);
+  add_block(row, 0, two.x, two.y, two.z);
+  add_block(row, 1, two.z, two.w, two_ahead.x);
+  two = two_ahead;
+  two_ahead = later;
 }
 
 void main() {
@@ -120,6 +130,11 @@ void main() {
     lowest[s] = 0;
 #endif
   }
+  two = two_blocks(0, lane);
+  two_ahead = two_blocks(1, lane);
+#if LOGARITHMIC
+  read_palettes(two.x);
+#endif
   for (uint pair = lane; pair < block_columns / 2; pair += 8) {
     read_part(pair);
     add_blocks(0, pair);  // not in a loop, which drivers would not unroll: sums were in memory then
