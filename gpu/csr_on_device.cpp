@@ -1,6 +1,7 @@
 #include "gpu/csr_on_device.hpp"
 
 #include "foundation/error.hpp"
+#include "gpu/row_fours.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -27,16 +28,23 @@ const RowSharing& sharing_of(RowStrategy strategy) {
   return strategy == RowStrategy::group ? shared_rows : single_rows;
 }
 
-ShaderFamily shaders_of_rows(RowStrategy strategy, bool in_double, bool narrow, bool adds) {
-  const RowSharing& sharing = sharing_of(strategy);
-  if (strategy == RowStrategy::invocation && !in_double)
-    return {"csr_texels.comp", {{"INVOCATIONS", sharing.invocations}, {"ADDS", adds ? 1 : 0}}};
-  return {"csr_rows.comp",
-          {{"INVOCATIONS", sharing.invocations},
-           {"LANES", sharing.lanes},
-           {"DOUBLE", in_double ? 1 : 0},
-           {"NARROW", narrow ? 1 : 0},
-           {"ADDS", adds ? 1 : 0}}};
+struct RowShape {
+  RowStrategy strategy;
+  Index together;  ///< rows
+  bool in_double;
+  bool narrow;  ///< columns in 16 bits
+};
+
+ShaderFamily shaders_of_rows(const RowShape& shape, bool adds) {
+  const RowSharing& sharing = sharing_of(shape.strategy);
+  std::vector<std::pair<std::string, int>> defines = {{"INVOCATIONS", sharing.invocations},
+                                                      {"TOGETHER", static_cast<int>(shape.together)},
+                                                      {"ADDS", adds ? 1 : 0}};
+  if (shape.strategy == RowStrategy::invocation && !shape.in_double) return {"csr_texels.comp", defines};
+  defines.emplace_back("LANES", sharing.lanes);
+  defines.emplace_back("DOUBLE", shape.in_double ? 1 : 0);
+  defines.emplace_back("NARROW", shape.narrow ? 1 : 0);
+  return {"csr_rows.comp", defines};
 }
 
 template <typename Scalar>
@@ -46,14 +54,15 @@ std::int64_t begin_of(const CsrMatrix<Scalar>& matrix, Index row) {
 
 /// The row after the last of those from `first` on whose entries and offsets fit into a storage block.
 template <typename Scalar>
-Index end_of_block(const CsrMatrix<Scalar>& matrix, Index first, const GlContext& context) {
-  const std::int64_t most = context.limits().storage_block_bytes / static_cast<std::int64_t>(sizeof(Scalar));
+Index end_of_block(const CsrMatrix<Scalar>& matrix, Index together, Index first, const GlContext& context) {
+  const std::int64_t most =
+      context.limits().storage_block_bytes / (together * static_cast<std::int64_t>(sizeof(Scalar)));
   const auto from = matrix.row_begin.begin() + first;
   const auto beyond = std::upper_bound(from, matrix.row_begin.end(), *from + most);
   const Index end = std::min<Index>((beyond - matrix.row_begin.begin()) - 1, first + most - 1);
   if (end <= first)
-    fail("row {} has {} entries, and a storage block of '{}' has room for {}: use --device cpu", first,
-         begin_of(matrix, first + 1) - *from, context.renderer(), most);
+    fail("row {} has {} entries, and a storage block of '{}' has room for {}: use --device cpu",
+         first * together, begin_of(matrix, first + 1) - *from, context.renderer(), most);
   return end;
 }
 
@@ -73,16 +82,23 @@ GlBuffer buffer_of(const std::shared_ptr<const GlContext>& context, const Number
 template <typename Scalar>
 CsrOnDevice<Scalar>::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMatrix<Scalar>& matrix,
                                  RowStrategy strategy)
+    : CsrOnDevice(std::move(device_of_matrix), matrix, row_fours(matrix), strategy) {}
+
+template <typename Scalar>
+CsrOnDevice<Scalar>::CsrOnDevice(std::shared_ptr<GlDevice> device_of_matrix, const CsrMatrix<Scalar>& matrix,
+                                 const std::optional<CsrMatrix<Scalar>>& fours, RowStrategy strategy)
     : DeviceMatrix(std::move(device_of_matrix), matrix.rows(), matrix.cols),
       strategy_(strategy),
+      together_(fours ? 4 : 1),
       narrow_(matrix.cols <= 65536),
-      product_(shaders_of_rows(strategy, in_double(), narrow_, false)),
-      sum_(shaders_of_rows(strategy, in_double(), narrow_, true)) {
+      product_(shaders_of_rows({strategy, together_, in_double(), narrow_}, false)),
+      sum_(shaders_of_rows({strategy, together_, in_double(), narrow_}, true)) {
   const GlContext& context = *device().context();
   const CurrentContext current(context);
-  for (Index first = 0; first < rows();) {
-    const Index end = end_of_block(matrix, first, context);
-    upload_block(matrix, first, end);
+  const CsrMatrix<Scalar>& stored = fours ? *fours : matrix;
+  for (Index first = 0; first < stored.rows();) {
+    const Index end = end_of_block(stored, together_, first, context);
+    upload_block(stored, first, end);
     first = end;
   }
   context.check("sending a sparse matrix");
@@ -96,7 +112,9 @@ void CsrOnDevice<Scalar>::upload_block(const CsrMatrix<Scalar>& matrix, Index fi
   std::vector<std::uint32_t> row_begin;
   for (Index row = first_row; row <= end_row; ++row)
     row_begin.push_back(static_cast<std::uint32_t>(begin_of(matrix, row) - first));
-  blocks_.push_back({first_row, end_row - first_row, buffer_of(context, matrix.value.data() + first, count),
+  blocks_.push_back({first_row, end_row - first_row,
+                     buffer_of(context, matrix.value.data() + together_ * first,
+                               static_cast<std::size_t>(together_) * count),
                      upload_columns(matrix.column.data() + first, count),
                      buffer_of(context, row_begin.data(), row_begin.size())});
 }
@@ -149,7 +167,7 @@ void CsrOnDevice<Scalar>::bind(const Block& block) const {
 template <typename Scalar>
 void CsrOnDevice<Scalar>::dispatch_rows(const ShaderFamily& shaders, Index first, Index step,
                                         Index count) const {
-  const Index rows_together = sharing_of(strategy_).invocations / sharing_of(strategy_).lanes;
+  const Index rows_of_group = sharing_of(strategy_).invocations / sharing_of(strategy_).lanes;
   if (by_texels()) device().texels().show_bound(x_of_rows_unit, Texel::one_float, FieldBuffers::x_binding);
   for (const Block& block : blocks_) {
     bind(block);
@@ -160,7 +178,7 @@ void CsrOnDevice<Scalar>::dispatch_rows(const ShaderFamily& shaders, Index first
       program.set("y_stride", FieldBuffers::padded(rows()));
       program.set("first_column", first + step * column);
       program.set("column_step", step);
-      program.dispatch((block.rows + rows_together - 1) / rows_together);
+      program.dispatch((block.rows + rows_of_group - 1) / rows_of_group);
     });
   }
 }

@@ -5,13 +5,15 @@
 #include "kernels/csr_matrix.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
 namespace radiosity {
 
 /// A sparse matrix by compressed rows on the device, in double or float32, with columns in 16 bits up to
-/// 65536 of them, split by rows where its entries take more than a storage block.
+/// 65536 of them, split by rows where its entries take more than a storage block. Where neighbouring rows
+/// have entries in the same columns, they are by fours (row_fours.hpp).
 template <typename Scalar>
 class CsrOnDevice final : public DeviceMatrix {
  public:
@@ -36,12 +38,14 @@ class CsrOnDevice final : public DeviceMatrix {
 
  private:
   struct Block {
-    Index first_row;
+    Index first_row;  ///< in fours of them where rows are together, as the next
     Index rows;
     GlBuffer values;
     GlBuffer columns;
     GlBuffer row_begin;  ///< rows + 1 numbers, from the block's first entry on
   };
+  CsrOnDevice(std::shared_ptr<GlDevice> device, const CsrMatrix<Scalar>& matrix,
+              const std::optional<CsrMatrix<Scalar>>& fours, RowStrategy strategy);
   void upload_block(const CsrMatrix<Scalar>& matrix, Index first_row, Index end_row);
   GlBuffer upload_columns(const std::int32_t* columns, std::size_t count) const;
   /// Textures have no texels in double precision.
@@ -51,7 +55,8 @@ class CsrOnDevice final : public DeviceMatrix {
   void dispatch_rows(const ShaderFamily& shaders, Index first, Index step, Index count) const;
 
   RowStrategy strategy_;
-  bool narrow_;  ///< columns in 16 bits
+  Index together_;  ///< 4 by fours of rows, else 1
+  bool narrow_;     ///< columns in 16 bits
   ShaderFamily product_;
   ShaderFamily sum_;  ///< Y += M X
   std::vector<Block> blocks_;

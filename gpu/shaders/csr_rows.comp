@@ -1,6 +1,6 @@
-// Y = M X for COLUMNS columns and a sparse M by compressed rows. LANES of the INVOCATIONS of a
-// work group walk along a row side by side; with one there is nothing to put together. ADDS: Y += M X. DOUBLE: in that
-// precision.
+// Y = M X for COLUMNS columns and a sparse M by compressed rows, one or four of them TOGETHER (gpu/row_fours.hpp). LANES
+// of the INVOCATIONS of a work group walk along a row, or along four, side by side; with one there is nothing to put
+// together. ADDS: Y += M X. DOUBLE: in that precision.
 #include "groups.glsl"
 #include "number.glsl"
 
@@ -8,13 +8,21 @@ layout(local_size_x = INVOCATIONS) in;
 
 const uint ROWS = INVOCATIONS / LANES;
 
-layout(std430, binding = 0) readonly buffer Values { NUMBER values[]; };
+#if TOGETHER == 1
+#define NUMBERS NUMBER
+#elif DOUBLE
+#define NUMBERS dvec4
+#else
+#define NUMBERS vec4
+#endif
+
+layout(std430, binding = 0) readonly buffer Values { NUMBERS values[]; };
 layout(std430, binding = 3) readonly buffer Columns { uint columns[]; };  // NARROW: two to a number, the first below
 layout(std430, binding = 4) readonly buffer RowBegin { uint row_begin[]; };
 layout(std430, binding = 1) readonly buffer X { NUMBER x[]; };
 layout(std430, binding = 2) buffer Y { NUMBER y[]; };
 
-uniform uint first_row;   // of the matrix in this block of storage
+uniform uint first_row;   // of the matrix in this block of storage, in TOGETHER of them as the next
 uniform uint block_rows;
 uniform uint x_stride;    // between columns
 uniform uint y_stride;
@@ -29,16 +37,24 @@ uint column_of(uint i) {
 #endif
 }
 
-void write_sum(uint c, uint row, NUMBER sum) {
-  uint place = (first_column + c * column_step) * y_stride + first_row + row;
+void write_number(uint place, NUMBER number) {
 #if ADDS
-  sum += y[place];
+  number += y[place];
 #endif
-  y[place] = sum;
+  y[place] = number;
+}
+
+void write_sum(uint c, uint row, NUMBERS sum) {
+  uint place = (first_column + c * column_step) * y_stride + (first_row + row) * TOGETHER;
+#if TOGETHER == 1
+  write_number(place, sum);
+#else
+  for (uint r = 0; r < TOGETHER; ++r) write_number(place + r, sum[r]);
+#endif
 }
 
 #if LANES > 1
-shared NUMBER sums[COLUMNS][INVOCATIONS];
+shared NUMBERS sums[COLUMNS][INVOCATIONS];
 #endif
 
 void main() {
@@ -46,10 +62,10 @@ void main() {
   uint row = group_index() * ROWS + gl_LocalInvocationID.x / LANES;
   bool present = row < block_rows;
   uint end = present ? row_begin[row + 1] : 0;
-  NUMBER sum[COLUMNS];
-  for (uint c = 0; c < COLUMNS; ++c) sum[c] = 0;
+  NUMBERS sum[COLUMNS];
+  for (uint c = 0; c < COLUMNS; ++c) sum[c] = NUMBERS(0);
   for (uint i = present ? row_begin[row] + lane : 0; i < end; i += LANES) {
-    NUMBER value = values[i];
+    NUMBERS value = values[i];
     uint column = column_of(i);
     for (uint c = 0; c < COLUMNS; ++c) sum[c] += value * x[(first_column + c * column_step) * x_stride + column];
   }

@@ -16,19 +16,23 @@ inline std::vector<ShaderVariant> shader_variants() {
   }
   for (const int lanes : {1, 32})
     for (const int present : {0, 1}) {
-      variants.push_back({"csr_rows.comp",
-                          {{"COLUMNS", 4},
-                           {"INVOCATIONS", 128},
-                           {"LANES", lanes},
-                           {"DOUBLE", 1 - present},
-                           {"NARROW", present},
-                           {"ADDS", present}}});
+      for (const int together : {1, 4})
+        variants.push_back({"csr_rows.comp",
+                            {{"COLUMNS", 4},
+                             {"INVOCATIONS", 128},
+                             {"TOGETHER", together},
+                             {"LANES", lanes},
+                             {"DOUBLE", 1 - present},
+                             {"NARROW", present},
+                             {"ADDS", present}}});
       variants.push_back(
           {"texture_sampled.comp",
            {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}, {"LANES", lanes}}});
     }
   for (const int present : {0, 1}) {
-    variants.push_back({"csr_texels.comp", {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"ADDS", present}}});
+    for (const int together : {1, 4})
+      variants.push_back({"csr_texels.comp",
+                          {{"COLUMNS", 4}, {"INVOCATIONS", 64}, {"TOGETHER", together}, {"ADDS", present}}});
     variants.push_back(
         {"texture_product.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"INVOCATIONS", 64}}});
     variants.push_back({"texture_texels.comp", {{"CHANNELS", 3}, {"LOGARITHMIC", present}, {"ROWS", 4}}});
