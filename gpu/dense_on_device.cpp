@@ -1,6 +1,7 @@
 #include "gpu/dense_on_device.hpp"
 
 #include <algorithm>
+#include <epoxy/gl.h>
 #include <type_traits>
 #include <vector>
 
@@ -21,7 +22,7 @@ constexpr int invocations_of_double_group = 64;
 constexpr int lanes_in_double = 16;
 
 template <typename Scalar>
-ShaderFamily shaders_for(RowStrategy strategy, Texel texel) {
+ShaderFamily shaders_for(RowStrategy strategy) {
   if constexpr (std::is_same_v<Scalar, double>)
     return {"dense_double.comp",
             {{"INVOCATIONS", invocations_of_double_group},
@@ -31,11 +32,22 @@ ShaderFamily shaders_for(RowStrategy strategy, Texel texel) {
             {{"HALF", std::is_same_v<Scalar, Half> ? 1 : 0},
              {"ROWS", rows_of_group},
              {"INVOCATIONS", invocations_of_group}}};
-  return {"dense_texels.comp", {{"EIGHT", texel == Texel::four_words ? 1 : 0}}};
+  return {"dense_texels.comp", {{"EIGHT", std::is_same_v<Scalar, Half> ? 1 : 0}}};
 }
 
 bool below_normal_range(Half number) {
   return (number.bits & 0x7c00) == 0 && (number.bits & 0x03ff) != 0;
+}
+
+/// Moves what is below the normal range from a row to the end of `apart`.
+void move_subnormal(Half* row, Index cols, CsrMatrix<float>& apart) {
+  for (Index c = 0; c < cols; ++c) {
+    if (!below_normal_range(row[c])) continue;
+    apart.column.push_back(static_cast<std::int32_t>(c));
+    apart.value.push_back(to_float(row[c]));
+    row[c] = Half{};
+  }
+  apart.row_begin.push_back(static_cast<std::int64_t>(apart.column.size()));
 }
 
 template <typename Scalar>
@@ -71,7 +83,7 @@ DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const Sym
       scale_(kernel.scale()),
       strategy_(strategy),
       strips_(upload([&](Index I, Scalar* strip) { copy_tile_row(kernel, I, stride_, strip); })),
-      shaders_(shaders_for<Scalar>(strategy, texel_)) {}
+      shaders_(shaders_for<Scalar>(strategy)) {}
 
 template <typename Scalar>
 DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const RowMajorMatrix<Scalar>& matrix,
@@ -85,41 +97,49 @@ DenseOnDevice<Scalar>::DenseOnDevice(std::shared_ptr<GlDevice> device, const Row
         std::copy_n(matrix.row(I * strip_rows), present * stride_, strip);
         std::fill(strip + present * stride_, strip + strip_rows * stride_, Scalar{});
       })),
-      shaders_(shaders_for<Scalar>(strategy, texel_)) {}
+      shaders_(shaders_for<Scalar>(strategy)) {}
 
 template <typename Scalar>
 template <typename ReadStrip>
 StoredRows DenseOnDevice<Scalar>::upload(const ReadStrip& read_strip) {
-  constexpr bool halves = std::is_same_v<Scalar, Half>;
-  texel_ = halves ? Texel::four_words : Texel::four_floats;
-  const CurrentContext current(*device().context());
+  CsrMatrix<float> apart;
+  apart.cols = cols();
   std::vector<Scalar> strip(static_cast<std::size_t>(strip_rows * stride_));
-  return {device().context(),
-          {.rows = FieldBuffers::padded(rows()) / strip_rows,
-           .row_bytes = strip_rows * stride_ * static_cast<Index>(sizeof(Scalar)),
-           .subject = "64 rows of the matrix take"},
-          [&](Index I) {
-            read_strip(I, strip.data());
-            if constexpr (halves)
-              if (std::any_of(strip.begin(), strip.end(), below_normal_range)) texel_ = Texel::four_halves;
-            return strip.data();
-          }};
+  const auto read = [&](Index I) {
+    read_strip(I, strip.data());
+    if constexpr (std::is_same_v<Scalar, Half>)
+      for (Index r = 0; r < std::min(strip_rows, rows() - I * strip_rows); ++r)
+        move_subnormal(strip.data() + r * stride_, cols(), apart);
+    return strip.data();
+  };
+  const CurrentContext current(*device().context());
+  StoredRows strips(device().context(),
+                    {.rows = FieldBuffers::padded(rows()) / strip_rows,
+                     .row_bytes = strip_rows * stride_ * static_cast<Index>(sizeof(Scalar)),
+                     .subject = "64 rows of the matrix take"},
+                    read);
+  if (!apart.value.empty())
+    subnormal_ = std::make_unique<CsrOnDevice<float>>(shared_device(), apart, strategy_);
+  return strips;
 }
 
 template <typename Scalar>
 ByteCount DenseOnDevice<Scalar>::bytes() const {
-  return {{{"entries", strips_.bytes()}}};
+  if (subnormal_ == nullptr) return {{{"entries", strips_.bytes()}}};
+  const ByteCount apart = subnormal_->bytes();
+  return {{{"entries", strips_.bytes()}, {"subnormal", apart.total()}}};
 }
 
 template <typename Scalar>
 void DenseOnDevice<Scalar>::dispatch(Index columns) const {
   const bool by_texels = strategy_ == RowStrategy::invocation && !in_double();
   const Index rows_together = rows_of_work_group<Scalar>(strategy_);
+  constexpr Texel texel = std::is_same_v<Scalar, Half> ? Texel::four_words : Texel::four_floats;
   TexelUnits& texels = device().texels();
   if (by_texels) texels.show_bound(x_unit, Texel::four_floats, FieldBuffers::x_binding);
   for (const StoredRows::Part& part : strips_.parts()) {
     if (by_texels)
-      texels.show(entries_binding, texel_, part.buffer);
+      texels.show(entries_binding, texel, part.buffer);
     else
       part.buffer.bind(entries_binding);
     shaders_.for_columns(device(), columns, [&](const GlProgram& program, Index first_column) {
@@ -131,6 +151,9 @@ void DenseOnDevice<Scalar>::dispatch(Index columns) const {
       program.dispatch(part.rows * strip_rows / rows_together);
     });
   }
+  if (subnormal_ == nullptr) return;
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  subnormal_->dispatch_sum(0, 1, columns);
 }
 
 template class DenseOnDevice<double>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gpu/csr_on_device.hpp"
 #include "gpu/device_matrix.hpp"
 #include "gpu/shader_family.hpp"
 #include "gpu/stored_rows.hpp"
@@ -7,6 +8,7 @@
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
 
+#include <memory>
 #include <type_traits>
 
 namespace radiosity {
@@ -15,7 +17,7 @@ namespace radiosity {
 /// binary16.
 /// A symmetric kernel is stored in full, both halves and its zero tiles: twice the memory, but every product
 /// reads each row as one stream and needs no atomic sums. Rows are split over as many storage blocks as the
-/// driver's limit asks for.
+/// driver's limit asks for. Subnormal numbers of binary16, which drivers may take for zero, are kept apart.
 template <typename Scalar>
 class DenseOnDevice final : public DeviceMatrix {
  public:
@@ -40,8 +42,8 @@ class DenseOnDevice final : public DeviceMatrix {
   Index stride_;
   double scale_;
   RowStrategy strategy_;
-  Texel texel_;  ///< of entries: eight numbers of binary16 in four words if none is below the normal range
-  StoredRows strips_;  ///< of 64 rows each, padding included
+  std::unique_ptr<CsrOnDevice<float>> subnormal_ = nullptr;  ///< null if there is none
+  StoredRows strips_;                                        ///< of 64 rows each, padding included
   ShaderFamily shaders_;
 };
 

@@ -52,6 +52,9 @@ class DeviceMatrix {
   DeviceMatrix(const DeviceMatrix&) = delete;
   DeviceMatrix& operator=(const DeviceMatrix&) = delete;
 
+  /// For parts that are matrices themselves.
+  const std::shared_ptr<GlDevice>& shared_device() const { return device_; }
+
   /// Y = scale times what `dispatch_columns` makes of X, both bound as FieldBuffers says; timed.
   void run(const ConstFieldRef& X, FieldRef Y, double scale,
            const std::function<void(Index columns)>& dispatch_columns) const;

@@ -18,8 +18,6 @@ TexelFormat format_of(Texel texel) {
       return {GL_R32F, 4};
     case Texel::four_floats:
       return {GL_RGBA32F, 16};
-    case Texel::four_halves:
-      return {GL_RGBA16F, 8};
     case Texel::four_shorts:
       return {GL_RGBA16UI, 8};
     case Texel::four_words:

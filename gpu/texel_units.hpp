@@ -8,7 +8,7 @@
 namespace radiosity {
 
 /// What a texture of a buffer has for a texel.
-enum class Texel { one_float, four_floats, four_halves, four_shorts, four_words };
+enum class Texel { one_float, four_floats, four_shorts, four_words };
 
 /// Buffers that shaders read as buffer textures. Software renderers get them so: Mesa's llvmpipe loads from
 /// storage blocks number by number and lane by lane, and fetches texels for all lanes at once. The memory of

@@ -88,7 +88,8 @@ DeviceResults benchmark_device(const std::shared_ptr<GlDevice>& device, const De
   results.threads = ThreadLimit::current();
   results.full = options.full;
   monitor.checkpoint("costs of products", 0);
-  results.costs = measure_product_costs(device, options.costs, cpu);
+  results.costs =
+      measure_product_costs(device, factors_of(options, options.costs.patches, monitor), options.costs, cpu);
   add_frames(device, options, options.sizes, true, results, monitor);
   add_frames(device, options, options.large_sizes, false, results, monitor);
   for (const Index patches : options.patches)

@@ -2,7 +2,6 @@
 
 #include "experiments/low_rank_radiosity/precomputed_woodbury.hpp"
 #include "experiments/low_rank_radiosity/solved_factors.hpp"
-#include "experiments/synthetic_form_factors.hpp"
 #include "foundation/stopwatch.hpp"
 #include "gpu/low_rank_on_device.hpp"
 #include "gpu/upload.hpp"
@@ -53,22 +52,32 @@ ProductCost cost_of_factors(const std::shared_ptr<GlDevice>& device, const Produ
           mean_cost(options.seconds, [&] { copy.multiply(E, Y); }), factors_limit};
 }
 
+FormFactors in_one_channel(const FormFactors& form_factors) {
+  PatchMesh mesh = *form_factors.mesh;
+  mesh.reflectance = form_factors.mesh->reflectance.leftCols(1);
+  mesh.emission = form_factors.mesh->emission.leftCols(1);
+  FormFactors result = form_factors;
+  result.mesh = std::make_shared<const PatchMesh>(std::move(mesh));
+  return result;
+}
+
 }  // namespace
 
 std::vector<ProductCost> measure_product_costs(const std::shared_ptr<GlDevice>& device,
+                                               const FormFactors& form_factors,
                                                const ProductCostOptions& options,
                                                const OperatorRegistry& cpu) {
   std::vector<ProductCost> costs;
-  const FormFactors grey = synthetic_form_factors(options.patches);
+  const FormFactors one_channel = in_one_channel(form_factors);
   for (const char* spec : {"dense:f32", "dense:f16"}) {
-    const auto on_cpu = cpu.make(spec, grey);
+    const auto on_cpu = cpu.make(spec, one_channel);
     for (const Index columns : {1, 3})
       costs.push_back(cost_of_operator(device, *on_cpu, columns, dense_limit, options.seconds));
   }
   for (const Index columns : {1, 3}) costs.push_back(cost_of_factors(device, options, columns));
-  for (const Index channels : {1, 3}) {
-    const auto on_cpu = cpu.make("dxt:reorder=none", synthetic_form_factors(options.patches, channels));
-    costs.push_back(cost_of_operator(device, *on_cpu, channels, blocks_limit, options.seconds));
+  for (const FormFactors* channels : {&one_channel, &form_factors}) {
+    const auto on_cpu = cpu.make("dxt", *channels);
+    costs.push_back(cost_of_operator(device, *on_cpu, on_cpu->channels(), blocks_limit, options.seconds));
   }
   return costs;
 }

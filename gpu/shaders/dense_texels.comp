@@ -8,7 +8,7 @@ layout(local_size_x = 8) in;
 #if EIGHT
 layout(binding = 0) uniform usamplerBuffer entries; // by rows, eights of binary16 without subnormal numbers
 #else
-layout(binding = 0) uniform samplerBuffer entries;  // by rows, fours of float32 or binary16
+layout(binding = 0) uniform samplerBuffer entries;  // by rows, fours of float32
 #endif
 layout(binding = 1) uniform samplerBuffer x;        // by columns, each of row_quads
 layout(std430, binding = 2) writeonly buffer Y { float y[]; };  // by columns, each of y_stride
