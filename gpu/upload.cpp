@@ -169,7 +169,7 @@ class Uploader {
 
   std::unique_ptr<LinearOperator> copy_series(const HasStoredSeries& stored) const {
     std::vector<Copy> matrices;
-    for (const CsrMatrix<float>* matrix : stored.stored_series()) matrices.push_back(copy_matrix(*matrix));
+    for (const RowGroups<float>* matrix : stored.stored_series()) matrices.push_back(copy_matrix(*matrix));
     return std::make_unique<DeviceSeriesOperator>(stored.reflectance(), std::move(matrices),
                                                   Eigen::VectorXd::Ones(original_.size()), origin());
   }
@@ -199,11 +199,9 @@ class Uploader {
   Copy copy_matrix(const RowMajorMatrix<Scalar>& matrix) const {
     return dense(matrix);
   }
-  Copy copy_matrix(const CsrMatrix<float>& matrix) const {
-    return std::make_unique<CsrOnDevice<float>>(device_, matrix, strategy_);
-  }
-  Copy copy_matrix(const CsrMatrix<double>& matrix) const {
-    return std::make_unique<CsrOnDevice<double>>(device_, matrix, strategy_);
+  template <typename Scalar>
+  Copy copy_matrix(const RowGroups<Scalar>& matrix) const {
+    return std::make_unique<CsrOnDevice<Scalar>>(device_, matrix.compressed_rows(), strategy_);
   }
   template <template <typename> class Matrix, typename Scalar>
   Copy dense(const Matrix<Scalar>& matrix) const {

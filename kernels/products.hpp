@@ -4,6 +4,7 @@
 #include "kernels/csr_matrix.hpp"
 #include "kernels/instruction_set.hpp"
 #include "kernels/quantized_tiles.hpp"
+#include "kernels/row_groups.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
 #include "kernels/tall_matrix.hpp"
@@ -78,8 +79,16 @@ void multiply_transposed(const TallMatrix<double>& M, const ConstFieldRef& X, Fi
 void multiply_transposed(const TallMatrix<float>& M, const ConstFieldRef& X, FieldRef C,
                          InstructionSet instructions = best_instruction_set());
 
-/// Y = M X and Y = M' X for a sparse matrix, in double. Same promises; no vector instructions: gathering X is
-/// the limit.
+/// Y = M X and Y = M' X for a sparse matrix, in double. Same promises.
+void multiply(const RowGroups<double>& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply(const RowGroups<float>& M, const ConstFieldRef& X, FieldRef Y,
+              InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const RowGroups<double>& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
+void multiply_transposed(const RowGroups<float>& M, const ConstFieldRef& X, FieldRef Y,
+                         InstructionSet instructions = best_instruction_set());
+/// The same without vector instructions, for matrices whose rows share few columns: gathering X is the limit.
 void multiply(const CsrMatrix<double>& M, const ConstFieldRef& X, FieldRef Y);
 void multiply(const CsrMatrix<float>& M, const ConstFieldRef& X, FieldRef Y);
 void multiply_transposed(const CsrMatrix<double>& M, const ConstFieldRef& X, FieldRef Y);

@@ -12,7 +12,7 @@ namespace radiosity {
 namespace {
 
 template <typename Scalar>
-ByteCount csr_bytes(const CsrMatrix<Scalar>& matrix, Index n, Index channels) {
+ByteCount csr_bytes(const RowGroups<Scalar>& matrix, Index n, Index channels) {
   return {{{"entries", matrix.value_bytes()},
            {"indices", matrix.index_bytes()},
            {"diagonals", diagonal_bytes(n, channels)}}};
@@ -29,7 +29,7 @@ class CsrKernelOperator final : public KernelOperator, public HasStoredMatrix {
   StoredMatrix stored() const override { return &kernel_; }
 
   Certificate certificate() const override {
-    const AbsoluteSums kernel = absolute_sums(kernel_, root_area());
+    const AbsoluteSums kernel = absolute_sums(kernel_.compressed_rows(), root_area());
     const double underflow = underflow_error<Scalar>() * static_cast<double>(size());
     return rounding_certificate(kernel.sums.cwiseQuotient(root_area()), kernel.non_negative, reflectance(),
                                 root_area(), {product_rounding<Scalar>(size()), underflow});
@@ -39,7 +39,7 @@ class CsrKernelOperator final : public KernelOperator, public HasStoredMatrix {
   void multiply_kernel(const ConstFieldRef& X, FieldRef Y) const override { multiply(kernel_, X, Y); }
 
  private:
-  CsrMatrix<Scalar> kernel_;
+  RowGroups<Scalar> kernel_;
 };
 
 template <typename Scalar>
@@ -53,7 +53,7 @@ class CsrMatrixOperator final : public MatrixOperator, public HasStoredMatrix {
   StoredMatrix stored() const override { return &matrix_; }
 
   Certificate certificate() const override {
-    const AbsoluteSums rows = absolute_sums(matrix_, Eigen::VectorXd::Ones(size()));
+    const AbsoluteSums rows = absolute_sums(matrix_.compressed_rows(), Eigen::VectorXd::Ones(size()));
     const double underflow =
         underflow_error<Scalar>() * root_area().norm() * root_area().cwiseInverse().norm();
     return rounding_certificate(rows.sums, rows.non_negative, reflectance(), root_area(),
@@ -67,7 +67,7 @@ class CsrMatrixOperator final : public MatrixOperator, public HasStoredMatrix {
   }
 
  private:
-  CsrMatrix<Scalar> matrix_;
+  RowGroups<Scalar> matrix_;
 };
 
 }  // namespace

@@ -44,18 +44,20 @@ class NeumannSparseOperator final : public LinearOperator, public HasStoredSerie
     check_reflectance(reflectance_, form_factors.patch_count());
     const CsrMatrix<double> F = compress_form_factors(form_factors);
     const Eigen::VectorXd root_area = form_factors.mesh->area.cwiseSqrt();
-    for (Index distinct = 0; distinct < reflectances_.count(); ++distinct)
-      indirect_.push_back(sum_sparse_powers(
-          scale_rows(F, reflectance_.col(reflectances_.representative(distinct))), root_area, options));
+    for (Index distinct = 0; distinct < reflectances_.count(); ++distinct) {
+      const SparsePowers powers = sum_sparse_powers(
+          scale_rows(F, reflectance_.col(reflectances_.representative(distinct))), root_area, options);
+      indirect_.push_back({RowGroups<float>(powers.sum), powers.powers, powers.remainder});
+    }
   }
 
   Index size() const override { return reflectance_.rows(); }
   Index channels() const override { return reflectance_.cols(); }
   bool global() const override { return true; }
 
-  std::vector<const CsrMatrix<float>*> stored_series() const override {
-    std::vector<const CsrMatrix<float>*> series;
-    for (const SparsePowers& powers : indirect_) series.push_back(&powers.sum);
+  std::vector<const RowGroups<float>*> stored_series() const override {
+    std::vector<const RowGroups<float>*> series;
+    for (const Series& powers : indirect_) series.push_back(&powers.sum);
     return series;
   }
   const Eigen::MatrixXd& reflectance() const override { return reflectance_; }
@@ -63,7 +65,7 @@ class NeumannSparseOperator final : public LinearOperator, public HasStoredSerie
   ByteCount bytes() const override {
     std::size_t entries = 0;
     std::size_t indices = 0;
-    for (const SparsePowers& series : indirect_) {
+    for (const Series& series : indirect_) {
       entries += series.sum.value_bytes();
       indices += series.sum.index_bytes();
     }
@@ -78,9 +80,9 @@ class NeumannSparseOperator final : public LinearOperator, public HasStoredSerie
     int powers = 0;
     double kept = 0;
     double remainder = 0;
-    for (const SparsePowers& series : indirect_) {
+    for (const Series& series : indirect_) {
       powers = std::max(powers, series.powers);
-      kept += static_cast<double>(series.sum.value.size());
+      kept += static_cast<double>(series.sum.entries());
       remainder = std::max(remainder, series.remainder);
     }
     const double all = static_cast<double>(reflectances_.count()) * static_cast<double>(size()) *
@@ -102,10 +104,17 @@ class NeumannSparseOperator final : public LinearOperator, public HasStoredSerie
   }
 
  private:
+  /// SparsePowers, as it is multiplied with.
+  struct Series {
+    RowGroups<float> sum;
+    int powers;
+    double remainder;
+  };
+
   Eigen::MatrixXd reflectance_;
   SparsePowersOptions options_;
   DistinctReflectances reflectances_;
-  std::vector<SparsePowers> indirect_;  ///< G - I, one a distinct reflectance
+  std::vector<Series> indirect_;  ///< G - I, one a distinct reflectance
 };
 
 }  // namespace

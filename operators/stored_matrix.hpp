@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compression/compressed_colours.hpp"
-#include "kernels/csr_matrix.hpp"
+#include "kernels/row_groups.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
 
@@ -14,7 +14,7 @@ namespace radiosity {
 using StoredMatrix =
     std::variant<const SymmetricTiles<double>*, const SymmetricTiles<float>*, const SymmetricTiles<Half>*,
                  const RowMajorMatrix<double>*, const RowMajorMatrix<float>*, const RowMajorMatrix<Half>*,
-                 const CsrMatrix<double>*, const CsrMatrix<float>*>;
+                 const RowGroups<double>*, const RowGroups<float>*>;
 
 /// The side interface of operators that multiply with one matrix between their diagonals: the kernel K of a
 /// KernelOperator, or F of a MatrixOperator.
@@ -55,7 +55,7 @@ class HasCompressedKernel {
 class HasStoredSeries {
  public:
   virtual ~HasStoredSeries() = default;
-  virtual std::vector<const CsrMatrix<float>*> stored_series() const = 0;
+  virtual std::vector<const RowGroups<float>*> stored_series() const = 0;
   /// rho, n x channels.
   virtual const Eigen::MatrixXd& reflectance() const = 0;
 };

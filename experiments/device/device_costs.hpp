@@ -19,7 +19,8 @@ struct ProductCostOptions {
 
 /// Measures what products of the same format take of the processor by the kernels of the CPU and on the
 /// device: dense in float32 and binary16, two full factors, BC1 blocks for one channel and for three.
-/// `form_factors` are of a scene with three channels: what is compressed, and what is kept apart, depends on it.
+/// `form_factors` are of a scene with three channels: what is compressed, and what is kept apart, depends on
+/// it.
 std::vector<ProductCost> measure_product_costs(const std::shared_ptr<GlDevice>& device,
                                                const FormFactors& form_factors,
                                                const ProductCostOptions& options,
