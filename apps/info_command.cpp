@@ -156,6 +156,11 @@ void add_info_command(CLI::App& app, const Program& program) {
                     "list the built-in scenes, the operators and the solvers with their defaults");
   command->add_option("--json", options->json_file, "write the same as JSON")->option_text("FILE");
   add_run_options(*command, options->run);
+  command->get_option("--device")
+      ->description("also describe a graphics device: gl, which may be left out")
+      ->expected(0, 1)
+      ->default_str("gl")
+      ->option_text("[gl]");
   command->callback([options, &program] { run_info(*options, program); });
 }
 

@@ -42,6 +42,9 @@ TEST_F(Device, IsDescribedByInfo) {
   for (const char* key : {"renderer", "version"})
     EXPECT_NE(result.output.find(device[key].get<std::string>()), std::string::npos) << key;
   EXPECT_GT(device["storage_block_bytes"], 0);
+  const ProcessResult by_itself = run({"info", "--device"});
+  EXPECT_EQ(by_itself.exit_code, 0) << by_itself.errors;
+  EXPECT_NE(by_itself.output.find(device["renderer"].get<std::string>()), std::string::npos);
   EXPECT_EQ(run({"info", "cube", "--json", "cpu.json"}).exit_code, 0);
   EXPECT_TRUE(json("cpu.json")["device"].is_null());
 }
