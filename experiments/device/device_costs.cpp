@@ -6,6 +6,8 @@
 #include "gpu/low_rank_on_device.hpp"
 #include "gpu/upload.hpp"
 
+#include <algorithm>
+#include <array>
 #include <functional>
 
 namespace radiosity {
@@ -20,11 +22,32 @@ constexpr double blocks_limit = 3;
 /// its other threads have used since they were last looked at, so that the cheapest run would be too cheap.
 double mean_cost(double seconds, const std::function<void()>& work) {
   constexpr int fewest_runs = 3;
-  work();
   const Stopwatch watch;
   int runs = 0;
   for (; runs < fewest_runs || watch.seconds() < seconds; ++runs) work();
   return watch.cpu_seconds() / runs;
+}
+
+struct CostOfBoth {
+  double cpu_seconds;
+  double device_cpu_seconds;
+};
+
+/// Medians of several means, by turns: what else the machine does meets both.
+CostOfBoth costs_by_turns(double seconds, const std::function<void()>& on_cpu,
+                          const std::function<void()>& on_device) {
+  constexpr int turns = 5;
+  std::array<double, turns> cpu{};
+  std::array<double, turns> device{};
+  on_cpu();
+  on_device();
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    cpu[turn] = mean_cost(seconds / turns, on_cpu);
+    device[turn] = mean_cost(seconds / turns, on_device);
+  }
+  std::sort(cpu.begin(), cpu.end());
+  std::sort(device.begin(), device.end());
+  return {cpu[turns / 2], device[turns / 2]};
 }
 
 ProductCost cost_of_operator(const std::shared_ptr<GlDevice>& device, const LinearOperator& on_cpu,
@@ -32,8 +55,9 @@ ProductCost cost_of_operator(const std::shared_ptr<GlDevice>& device, const Line
   const auto copy = upload(device, on_cpu);
   const Field X = Field::Ones(on_cpu.size(), columns);
   Field Y(on_cpu.size(), columns);
-  return {on_cpu.describe(), columns, mean_cost(seconds, [&] { on_cpu.apply(X, Y); }),
-          mean_cost(seconds, [&] { copy->apply(X, Y); }), limit};
+  const CostOfBoth cost = costs_by_turns(
+      seconds, [&] { on_cpu.apply(X, Y); }, [&] { copy->apply(X, Y); });
+  return {on_cpu.describe(), columns, cost.cpu_seconds, cost.device_cpu_seconds, limit};
 }
 
 ProductCost cost_of_factors(const std::shared_ptr<GlDevice>& device, const ProductCostOptions& options,
@@ -44,12 +68,13 @@ ProductCost cost_of_factors(const std::shared_ptr<GlDevice>& device, const Produ
   const Field E = Field::Ones(options.factors.rows, columns);
   Field X(options.factors.rank, columns);
   Field Y(options.factors.rows, columns);
-  const double on_cpu = mean_cost(options.seconds, [&] {
+  const auto on_cpu = [&] {
     multiply_transposed(V, E, X);
     multiply(factors.Y, X, Y);
-  });
-  return {fmt::format("low-rank:n={},k={}", options.factors.rows, options.factors.rank), columns, on_cpu,
-          mean_cost(options.seconds, [&] { copy.multiply(E, Y); }), factors_limit};
+  };
+  const CostOfBoth cost = costs_by_turns(options.seconds, on_cpu, [&] { copy.multiply(E, Y); });
+  return {fmt::format("low-rank:n={},k={}", options.factors.rows, options.factors.rank), columns,
+          cost.cpu_seconds, cost.device_cpu_seconds, factors_limit};
 }
 
 FormFactors in_one_channel(const FormFactors& form_factors) {

@@ -13,7 +13,7 @@ namespace radiosity {
 struct ProductCostOptions {
   Index patches = 4096;             ///< of dense and compressed products, about
   LowRankSize factors{55296, 216};  ///< of products with factors
-  double seconds = 0.2;             ///< for each product on each side
+  double seconds = 0.5;             ///< for each product on each side
   std::uint64_t seed = 1;
 };
 
