@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <string>
 #include <unistd.h>
 
 namespace radiosity {
@@ -15,16 +14,11 @@ namespace {
 constexpr int bar_width = 30;
 constexpr auto first_drawing_after = std::chrono::milliseconds(300);  // short work shows nothing
 constexpr auto redrawing_after = std::chrono::milliseconds(100);
-constexpr auto line_after = std::chrono::seconds(20);
 
 }  // namespace
 
 TerminalMonitor::TerminalMonitor(bool quiet)
-    : visible_(!quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
-      start_(Clock::now()),
-      next_showing_(start_ +
-                    (terminal_ ? Clock::duration(first_drawing_after) : Clock::duration(line_after))) {}
+    : visible_(!quiet && isatty(STDERR_FILENO) == 1), next_drawing_(Clock::now() + first_drawing_after) {}
 
 TerminalMonitor::~TerminalMonitor() {
   clear();
@@ -33,27 +27,14 @@ TerminalMonitor::~TerminalMonitor() {
 void TerminalMonitor::report(std::string_view stage, double fraction) {
   if (!visible_) return;
   const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
-  if (!lock || Clock::now() < next_showing_) return;  // somebody else shows it, or it is too early
-  if (terminal_)
-    draw(stage, std::clamp(fraction, 0.0, 1.0));
-  else
-    write_line(stage, std::clamp(fraction, 0.0, 1.0));
-  next_showing_ = Clock::now() + (terminal_ ? Clock::duration(redrawing_after) : Clock::duration(line_after));
-}
-
-void TerminalMonitor::draw(std::string_view stage, double fraction) {
-  const int filled = static_cast<int>(fraction * bar_width);
+  if (!lock || Clock::now() < next_drawing_) return;  // somebody else draws, or it is too early
+  next_drawing_ = Clock::now() + redrawing_after;
+  const double done = std::clamp(fraction, 0.0, 1.0);
+  const int filled = static_cast<int>(done * bar_width);
   fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %", stage, "", filled, "", bar_width - filled,
-             100 * fraction);
+             100 * done);
   std::fflush(stderr);
   drawn_ = true;
-}
-
-void TerminalMonitor::write_line(std::string_view stage, double fraction) const {
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - start_).count();
-  const std::string done = fraction > 0 ? fmt::format(", {:.0f} %", 100 * fraction) : "";
-  fmt::print(stderr, "after {} s: {}{}\n", seconds, stage, done);
-  std::fflush(stderr);
 }
 
 bool TerminalMonitor::cancelled() const {

@@ -8,9 +8,8 @@
 
 namespace radiosity {
 
-/// Draws one line of progress on standard error, or, where that is no terminal, writes a line of it now and
-/// then when work takes long. Is cancelled by Ctrl-C (interruption.hpp). Shows nothing when asked to be
-/// quiet.
+/// Draws one line of progress on standard error, and is cancelled by Ctrl-C (interruption.hpp). Draws nothing
+/// where standard error is no terminal, nor when asked to be quiet.
 class TerminalMonitor final : public Monitor {
  public:
   explicit TerminalMonitor(bool quiet);
@@ -27,14 +26,9 @@ class TerminalMonitor final : public Monitor {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void draw(std::string_view stage, double fraction);
-  void write_line(std::string_view stage, double fraction) const;
-
   bool visible_;
-  bool terminal_;
   bool drawn_ = false;
-  Clock::time_point start_;
-  Clock::time_point next_showing_;
+  Clock::time_point next_drawing_;
   std::mutex mutex_;
 };
 
