@@ -22,6 +22,12 @@ struct Adder {
   }
 };
 
+template <typename Scalar>
+void add_entries(const RowGroups<Scalar>& M, Adder& adder) {
+  M.visit_entries(
+      [&](Index row, Index column, Scalar value) { adder.add(row, column, static_cast<double>(value)); });
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -50,13 +56,9 @@ AbsoluteSums absolute_sums(const RowMajorMatrix<Scalar>& M, const Eigen::VectorX
 }
 
 template <typename Scalar>
-AbsoluteSums absolute_sums(const CsrMatrix<Scalar>& M, const Eigen::VectorXd& weights) {
+AbsoluteSums absolute_sums(const RowGroups<Scalar>& M, const Eigen::VectorXd& weights) {
   Adder adder(M.rows(), weights);
-  for (Index i = 0; i < M.rows(); ++i)
-    for (auto k = M.row_begin[static_cast<std::size_t>(i)]; k < M.row_begin[static_cast<std::size_t>(i) + 1];
-         ++k)
-      adder.add(i, M.column[static_cast<std::size_t>(k)],
-                static_cast<double>(M.value[static_cast<std::size_t>(k)]));
+  add_entries(M, adder);
   return adder.result;
 }
 
@@ -66,7 +68,7 @@ template AbsoluteSums absolute_sums(const SymmetricTiles<Half>&, const Eigen::Ve
 template AbsoluteSums absolute_sums(const RowMajorMatrix<double>&, const Eigen::VectorXd&);
 template AbsoluteSums absolute_sums(const RowMajorMatrix<float>&, const Eigen::VectorXd&);
 template AbsoluteSums absolute_sums(const RowMajorMatrix<Half>&, const Eigen::VectorXd&);
-template AbsoluteSums absolute_sums(const CsrMatrix<double>&, const Eigen::VectorXd&);
-template AbsoluteSums absolute_sums(const CsrMatrix<float>&, const Eigen::VectorXd&);
+template AbsoluteSums absolute_sums(const RowGroups<double>&, const Eigen::VectorXd&);
+template AbsoluteSums absolute_sums(const RowGroups<float>&, const Eigen::VectorXd&);
 
 }  // namespace radiosity

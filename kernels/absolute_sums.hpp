@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/csr_matrix.hpp"
+#include "kernels/row_groups.hpp"
 #include "kernels/row_major_matrix.hpp"
 #include "kernels/symmetric_tiles.hpp"
 
@@ -17,6 +17,6 @@ AbsoluteSums absolute_sums(const SymmetricTiles<Scalar>& M, const Eigen::VectorX
 template <typename Scalar>
 AbsoluteSums absolute_sums(const RowMajorMatrix<Scalar>& M, const Eigen::VectorXd& weights);
 template <typename Scalar>
-AbsoluteSums absolute_sums(const CsrMatrix<Scalar>& M, const Eigen::VectorXd& weights);
+AbsoluteSums absolute_sums(const RowGroups<Scalar>& M, const Eigen::VectorXd& weights);
 
 }  // namespace radiosity

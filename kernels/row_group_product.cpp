@@ -9,7 +9,7 @@
 namespace radiosity {
 namespace {
 
-constexpr Index group_rows = 16;
+constexpr Index group_rows = RowGroups<double>::rows_of_group;
 constexpr std::size_t groups_of_a_task = 2;
 constexpr Index most_chunks_of_groups = 16;
 

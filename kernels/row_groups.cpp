@@ -2,7 +2,7 @@
 
 #include "kernels/side_by_side_rows.hpp"
 
-#include <bit>
+#include <numeric>
 
 namespace radiosity {
 
@@ -32,22 +32,17 @@ template <typename Scalar>
 CsrMatrix<Scalar> RowGroups<Scalar>::compressed_rows() const {
   CsrMatrix<Scalar> matrix;
   matrix.cols = cols_;
-  matrix.column.reserve(entries());
-  matrix.value.reserve(entries());
-  for (Index row = 0; row < rows_; ++row) {
-    const Group own = group(row / rows_of_group);
-    const unsigned bit = 1U << row % rows_of_group;
-    const Scalar* values = own.values;
-    for (std::size_t e = 0; e < own.elements; ++e) {
-      const unsigned mask = own.masks[e];
-      if ((mask & bit) != 0) {
-        matrix.column.push_back(own.columns[e]);
-        matrix.value.push_back(values[std::popcount(mask & (bit - 1))]);
-      }
-      values += std::popcount(mask);
-    }
-    matrix.row_begin.push_back(static_cast<std::int64_t>(matrix.column.size()));
-  }
+  matrix.row_begin.assign(static_cast<std::size_t>(rows_) + 1, 0);
+  visit_entries([&](Index row, Index, Scalar) { ++matrix.row_begin[static_cast<std::size_t>(row) + 1]; });
+  std::partial_sum(matrix.row_begin.begin(), matrix.row_begin.end(), matrix.row_begin.begin());
+  matrix.column.resize(entries());
+  matrix.value.resize(entries());
+  std::vector<std::int64_t> next(matrix.row_begin.begin(), matrix.row_begin.end() - 1);
+  visit_entries([&](Index row, Index column, Scalar value) {
+    const auto k = static_cast<std::size_t>(next[static_cast<std::size_t>(row)]++);
+    matrix.column[k] = static_cast<std::int32_t>(column);
+    matrix.value[k] = value;
+  });
   return matrix;
 }
 

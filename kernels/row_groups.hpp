@@ -2,6 +2,7 @@
 
 #include "kernels/csr_matrix.hpp"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,6 +38,18 @@ class RowGroups {
     const auto k = static_cast<std::size_t>(g);
     return {values_.data() + value_begin_[k], columns_.data() + begin_[k], masks_.data() + begin_[k],
             begin_[k + 1] - begin_[k]};
+  }
+
+  /// Calls visit(row, column, value) for every entry, columns rising within each row.
+  template <typename Visit>
+  void visit_entries(const Visit& visit) const {
+    for (Index g = 0; g < groups(); ++g) {
+      const Group own = group(g);
+      const Scalar* value = own.values;
+      for (std::size_t e = 0; e < own.elements; ++e)
+        for (unsigned mask = own.masks[e]; mask != 0; mask &= mask - 1)
+          visit(g * rows_of_group + std::countr_zero(mask), own.columns[e], *value++);
+    }
   }
 
   /// The same matrix, columns rising within rows.

@@ -29,7 +29,7 @@ class CsrKernelOperator final : public KernelOperator, public HasStoredMatrix {
   StoredMatrix stored() const override { return &kernel_; }
 
   Certificate certificate() const override {
-    const AbsoluteSums kernel = absolute_sums(kernel_.compressed_rows(), root_area());
+    const AbsoluteSums kernel = absolute_sums(kernel_, root_area());
     const double underflow = underflow_error<Scalar>() * static_cast<double>(size());
     return rounding_certificate(kernel.sums.cwiseQuotient(root_area()), kernel.non_negative, reflectance(),
                                 root_area(), {product_rounding<Scalar>(size()), underflow});
@@ -53,7 +53,7 @@ class CsrMatrixOperator final : public MatrixOperator, public HasStoredMatrix {
   StoredMatrix stored() const override { return &matrix_; }
 
   Certificate certificate() const override {
-    const AbsoluteSums rows = absolute_sums(matrix_.compressed_rows(), Eigen::VectorXd::Ones(size()));
+    const AbsoluteSums rows = absolute_sums(matrix_, Eigen::VectorXd::Ones(size()));
     const double underflow =
         underflow_error<Scalar>() * root_area().norm() * root_area().cwiseInverse().norm();
     return rounding_certificate(rows.sums, rows.non_negative, reflectance(), root_area(),
